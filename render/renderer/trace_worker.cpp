@@ -147,7 +147,36 @@ std::size_t TraceWorker::list_chords(const TraceTarget& target, RayBuffer& rays,
   chords_.resize(chord_ends_[stop - 1]);
   for (std::size_t k = 0; k < chords_.size(); ++k)
     chords_[k] = {enter_[k], leave_[k], chord_id_[k], chord_slot_[k]};
+  if (target.geometry.lacks_copies()) add_copies(target.geometry, rays, first, stop);
   return stop;
+}
+
+/// Adds the chords of spheres that the tree leaves out, as exact copies of two others, `first` and
+/// `second`. The first shows where they are; or the second, if the ray leaves the first.
+void TraceWorker::add_copies(const Geometry& geometry, const RayBuffer& rays, std::size_t first,
+                             std::size_t stop) {
+  std::vector<RayChord> all;
+  std::size_t at = 0;
+  for (std::size_t k = first; k < stop; ++k) {
+    const Ray ray = rays.get(k);
+    const auto of_source = geometry.copies_of(ray.source);
+    for (; at < chord_ends_[k]; ++at) {
+      const RayChord& chord = chords_[at];
+      all.push_back(chord);
+      if (chord.id == ray.source) continue;
+      const bool is_second = !of_source.empty() && of_source[0].second == chord.id;
+      for (const SphereCopy& copy : is_second ? of_source : geometry.copies_of(chord.id)) {
+        if (copy.id != ray.source) {
+          all.push_back({chord.enter, chord.leave, copy.id, chord.slot});
+        } else if (ray.inside) {
+          const auto own = reference::find_chord(ray, geometry.sphere(chord.slot), true);
+          if (own.leave > ray.tmin) all.push_back({own.enter, own.leave, copy.id, chord.slot});
+        }
+      }
+    }
+    chord_ends_[k] = all.size();
+  }
+  chords_ = std::move(all);
 }
 
 }  // namespace boule

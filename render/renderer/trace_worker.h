@@ -90,6 +90,8 @@ class TraceWorker {
   TracedHit traced(const TraceTarget& target, std::size_t k, std::size_t surface);
   /// The chords of rays first .. , as far as there is room. Returns the ray that it stops at.
   std::size_t list_chords(const TraceTarget& target, RayBuffer& rays, std::size_t first);
+  void add_copies(const Geometry& geometry, const RayBuffer& rays, std::size_t first,
+                  std::size_t stop);
 
   template <class Visit>
   void visit_chords(const TraceTarget& target, RayBuffer& rays, const Visit& visit) {

@@ -78,7 +78,7 @@ class Tracer {
 
   /// All crossings of each ray with tmin < t <= tmax, or the first `limit` of them: two of a
   /// sphere, one where a line touches it, one of a plane. Decisions are exact, whatever the solver.
-  /// Of spheres that have more than sixteen exact copies at least two count. Errors are as for
+  /// Of more than sixteen exact copies of a sphere in a packed scene, two count. Errors are as for
   /// closest_of_columns(); too little memory for the results is one with the memory that they need.
   Result<Crossings> all_hits(const RayView& rays, std::optional<std::size_t> limit = {});
 
@@ -108,8 +108,9 @@ class Tracer {
   Status find_any(const RayView& rays, std::span<std::uint8_t> met);
   [[nodiscard]] Status check_sources(const RayView& rays) const;
   Status run(const RayView& rays, std::size_t results, const Body& body);
-  template <class Item, class List>
-  Result<RayLists<Item>> list_items(const RayView& rays, const std::string& name, const List& list);
+  template <class Item, class MakeList>
+  Result<RayLists<Item>> list_items(const RayView& rays, const std::string& name,
+                                    const MakeList& make_list);
   Status run_blocks(const RayView& rays, const Body& body);
   [[nodiscard]] bool is_sphere(std::int32_t id) const {
     return static_cast<std::uint32_t>(id) < geometry_.sphere_count();

@@ -1,6 +1,8 @@
 // All that rays cross, and how long they are inside.
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
@@ -17,6 +19,7 @@ struct Crossing {
   std::int32_t id;
   bool entering;
 
+  [[nodiscard]] double position() const { return t; }
   [[nodiscard]] auto key() const {
     return std::tuple(t, static_cast<std::uint32_t>(id), !entering);
   }
@@ -26,6 +29,9 @@ struct Crossing {
 struct Span {
   double begin, end;
 
+  [[nodiscard]] double position() const { return begin; }
+  [[nodiscard]] auto key() const { return std::pair(begin, end); }
+
   [[nodiscard]] double length() const { return end > begin ? end - begin : 0; }
 };
 
@@ -33,6 +39,50 @@ struct ChordLength {
   std::int32_t id;
   double length;
 };
+
+/// Memory for sort_spread().
+template <class Value>
+struct SortRoom {
+  std::vector<Value> values;
+  std::vector<std::uint32_t> ends;
+};
+
+/// Sorts values that are mostly spread evenly over their range: into as many buckets as there are
+/// values, and then each bucket. Value::position() rises with key().
+template <class Value>
+void sort_spread(std::span<Value> values, SortRoom<Value>& room) {
+  const auto before = [](const Value& a, const Value& b) { return a.key() < b.key(); };
+  constexpr std::size_t fewest = 16;
+  const auto [least, most] = std::minmax_element(
+      values.begin(), values.end(),
+      [](const Value& a, const Value& b) { return a.position() < b.position(); });
+  const double low = values.empty() ? 0 : least->position();
+  const double scale = values.size() < fewest
+                           ? 0
+                           : static_cast<double>(values.size() - 1) / (most->position() - low);
+  if (!(scale > 0) || !std::isfinite(scale) ||
+      values.size() > std::numeric_limits<std::uint32_t>::max()) {
+    std::sort(values.begin(), values.end(), before);
+    return;
+  }
+  const auto bucket_of = [&](const Value& value) {
+    const auto bucket = static_cast<std::size_t>((value.position() - low) * scale);
+    return std::min(bucket, values.size() - 1);
+  };
+  std::vector<std::uint32_t>& ends = room.ends;
+  room.values.assign(values.begin(), values.end());
+  ends.assign(values.size() + 1, 0);
+  for (const Value& value : room.values) ++ends[bucket_of(value) + 1];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  for (const Value& value : room.values) values[ends[bucket_of(value)]++] = value;
+  std::size_t begin = 0;
+  for (std::size_t bucket = 0; bucket < values.size(); begin = ends[bucket++]) {
+    if (ends[bucket] - begin > 1) {
+      std::sort(values.begin() + static_cast<std::ptrdiff_t>(begin),
+                values.begin() + static_cast<std::ptrdiff_t>(ends[bucket]), before);
+    }
+  }
+}
 
 /// Calls visit(t, entering) for each crossing that counts. A tangent is one.
 template <class Visit>
@@ -43,16 +93,14 @@ void visit_crossings(const RayChord& chord, const RayInterval& interval, const V
 
 /// Appends the crossings of one ray in order, at most `limit`.
 void add_crossings(std::span<const RayChord> chords, const RayInterval& interval, std::size_t limit,
-                   std::vector<Crossing>& to) {
+                   SortRoom<Crossing>& room, std::vector<Crossing>& to) {
   const std::size_t before = to.size();
   for (const RayChord& chord : chords) {
     visit_crossings(chord, interval, [&](double t, bool entering) {
       to.push_back({t, chord.id, entering});
     });
   }
-  const auto first = to.begin() + static_cast<std::ptrdiff_t>(before);
-  std::sort(first, to.end(),
-            [](const Crossing& a, const Crossing& b) { return a.key() < b.key(); });
+  sort_spread(std::span(to).subspan(before), room);
   if (to.size() - before > limit) to.resize(before + limit);
 }
 
@@ -64,10 +112,8 @@ Span clip(const RayChord& chord, const RayInterval& interval, const Ray& ray) {
 }
 
 /// The length of the union. Reorders the spans.
-double union_length(std::vector<Span>& spans) {
-  std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
-    return std::pair(a.begin, a.end) < std::pair(b.begin, b.end);
-  });
+double union_length(std::vector<Span>& spans, SortRoom<Span>& room) {
+  sort_spread(std::span(spans), room);
   double length = 0;
   for (std::size_t k = 0; k < spans.size();) {
     Span joined = spans[k];
@@ -92,11 +138,12 @@ void spread(RayLists<Item>& lists, const Copy& copy) {
 
 }  // namespace
 
-/// list(worker, k, chords, items) appends the items of ray k of the worker. Results that exceed the
+/// make_list() makes a function for one block: list(worker, k, chords, items) appends the items of
+/// ray k of the worker. Results that exceed the
 /// memory are counted and not kept. `name`: of the items.
-template <class Item, class List>
+template <class Item, class MakeList>
 Result<RayLists<Item>> Tracer::list_items(const RayView& rays, const std::string& name,
-                                          const List& list) {
+                                          const MakeList& make_list) {
   // Each item is in its piece and in its columns at the same time.
   constexpr std::uint64_t bytes_each = 2 * sizeof(Item);
   const std::string of_rays = " of " + std::to_string(rays.size()) + " rays need";
@@ -112,6 +159,7 @@ Result<RayLists<Item>> Tracer::list_items(const RayView& rays, const std::string
   if (auto done = diagnose(std::cref(make)); !done) return done.error();
   const auto body = [&](TraceWorker& worker, std::size_t first) {
     std::vector<Item> found;
+    auto list = make_list();
     worker.find_chords(target(), [&](std::size_t k, std::span<const RayChord> chords) {
       const std::size_t before = found.size();
       list(worker, k, chords, found);
@@ -133,12 +181,13 @@ Result<RayLists<Item>> Tracer::list_items(const RayView& rays, const std::string
 
 Result<Crossings> Tracer::all_hits(const RayView& rays, std::optional<std::size_t> limit) {
   const std::size_t most = limit.value_or(static_cast<std::size_t>(-1));
-  auto lists =
-      list_items<Crossing>(rays, "crossings",
-                           [&](const TraceWorker& worker, std::size_t k,
-                               std::span<const RayChord> chords, std::vector<Crossing>& items) {
-                             add_crossings(chords, worker.interval(k), most, items);
-                           });
+  auto lists = list_items<Crossing>(rays, "crossings", [most] {
+    return [most, room = SortRoom<Crossing>()](const TraceWorker& worker, std::size_t k,
+                                               std::span<const RayChord> chords,
+                                               std::vector<Crossing>& items) mutable {
+      add_crossings(chords, worker.interval(k), most, room, items);
+    };
+  });
   if (!lists) return lists.error();
   Crossings all;
   const auto fill = [&] {
@@ -174,32 +223,32 @@ Status Tracer::count(const RayView& rays, std::span<std::int64_t> counts) {
 Status Tracer::chord(const RayView& rays, std::span<double> lengths) {
   const auto body = [&](TraceWorker& worker, std::size_t first) {
     std::vector<Span> spans;
+    SortRoom<Span> room;
     worker.find_chords(target(), [&](std::size_t k, std::span<const RayChord> chords) {
       const Ray ray = worker.ray(k);
       spans.clear();
       for (const RayChord& chord : chords) {
         if (is_sphere(chord.id)) spans.push_back(clip(chord, worker.interval(k), ray));
       }
-      lengths[first + k] = union_length(spans);
+      lengths[first + k] = union_length(spans, room);
     });
   };
   return run(rays, lengths.size(), std::cref(body));
 }
 
 Result<SphereChords> Tracer::chords(const RayView& rays) {
-  auto lists = list_items<ChordLength>(
-      rays, "chords",
-      [&](const TraceWorker& worker, std::size_t k, std::span<const RayChord> chords,
-          std::vector<ChordLength>& items) {
-        const auto before = static_cast<std::ptrdiff_t>(items.size());
-        const Ray ray = worker.ray(k);
-        for (const RayChord& chord : chords) {
-          const double length = clip(chord, worker.interval(k), ray).length();
-          if (is_sphere(chord.id) && length > 0) items.push_back({chord.id, length});
-        }
-        std::sort(items.begin() + before, items.end(),
-                  [](const ChordLength& a, const ChordLength& b) { return a.id < b.id; });
-      });
+  const auto list = [this](const TraceWorker& worker, std::size_t k,
+                           std::span<const RayChord> chords, std::vector<ChordLength>& items) {
+    const auto before = static_cast<std::ptrdiff_t>(items.size());
+    const Ray ray = worker.ray(k);
+    for (const RayChord& chord : chords) {
+      const double length = clip(chord, worker.interval(k), ray).length();
+      if (is_sphere(chord.id) && length > 0) items.push_back({chord.id, length});
+    }
+    std::sort(items.begin() + before, items.end(),
+              [](const ChordLength& a, const ChordLength& b) { return a.id < b.id; });
+  };
+  auto lists = list_items<ChordLength>(rays, "chords", [&list] { return list; });
   if (!lists) return lists.error();
   SphereChords all;
   const auto fill = [&] {

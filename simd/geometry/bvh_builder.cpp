@@ -90,6 +90,7 @@ class Filler {
     std::size_t first_leaf;
     const std::int32_t* ids;
     const MaterialRef* materials;
+    std::vector<SphereCopy>* copies;  ///< output: the spheres that are left out
   };
 
   /// Fills the leaves of one subtree. Threads may fill different subtrees in parallel.
@@ -101,13 +102,23 @@ class Filler {
       if (node.size == 0) continue;
       fill_block(block, from.first(node.size));
       if (has_materials_) name_spheres(block, node.size, source);
+      const auto left_out = from.subspan(node.size, node.copies());
+      for (const BuildSphere& copy : left_out) {
+        source.copies->push_back(
+            {id_of(from[0], source), id_of(from[1], source), id_of(copy, source)});
+      }
       ++block;
       from = from.subspan(node.size + node.copies());
     }
   }
 
+  void add_copies(const std::vector<SphereCopy>& copies) {
+    bvh_.copies.insert(bvh_.copies.end(), copies.begin(), copies.end());
+  }
+
   /// `all`: the material of all spheres, if it is the same.
   Bvh finish(MaterialRef all) {
+    std::sort(bvh_.copies.begin(), bvh_.copies.end());
     bvh_.slots.shrink_to_fit();
     bvh_.blocks.shrink_to_fit();
     bvh_.nodes.shrink_to_fit();
@@ -128,6 +139,10 @@ class Filler {
     bvh_.blocks[index] = block;
     if (has_materials_)
       std::fill_n(materials_.data() + index * bvh_leaf_size, bvh_leaf_size, MaterialRef());
+  }
+
+  [[nodiscard]] std::int32_t id_of(const BuildSphere& sphere, const LeafSource& source) const {
+    return has_materials_ ? source.ids[static_cast<std::size_t>(sphere.id)] : sphere.id;
   }
 
   /// Replaces indices by ids and materials.
@@ -196,6 +211,7 @@ class TreeFiller {
       fill_portion(first, std::min(first + at_once, parts_.size()), parallel_for);
     forest_.finish();
     collapse_->make_upper(filler_.nodes());
+    for (const Part& part : parts_) filler_.add_copies(part.copies);
   }
 
  private:
@@ -203,6 +219,7 @@ class TreeFiller {
   struct Part {
     std::size_t nodes = 0;
     std::vector<std::int32_t> ids{};
+    std::vector<SphereCopy> copies{};
   };
 
   void fill_portion(std::size_t first, std::size_t end, const ParallelFor& parallel_for) {
@@ -230,8 +247,9 @@ class TreeFiller {
     const MaterialRef* const materials =
         materials_.empty() ? nullptr : materials_.data() + subtree.begin;
     collapse_->make_subtree(index, filler_.nodes());
-    filler_.fill_leaves(forest_, subtree,
-                        {collapse_->first_leaf(index), parts_[index].ids.data(), materials});
+    filler_.fill_leaves(
+        forest_, subtree,
+        {collapse_->first_leaf(index), parts_[index].ids.data(), materials, &parts_[index].copies});
     std::vector<std::int32_t>().swap(parts_[index].ids);
     if (!forest_.is_twig(index)) forest_.drop(index);
   }
@@ -257,12 +275,14 @@ Bvh build_bvh(std::vector<Sphere> spheres, const ParallelFor& parallel_for,
               const TreePlace& place) {
   std::vector<std::int32_t> apart;
   if (place.keeps_apart) apart = find_spheres_apart(spheres, parallel_for);
-  const std::vector<std::int32_t> scanned = without_copies(apart, spheres);
+  std::vector<SphereCopy> copies;
+  const std::vector<std::int32_t> scanned = without_copies(apart, spheres, copies);
   const std::vector<Sphere> scanned_spheres = spheres_of(scanned, spheres);
   const MaterialRef first_material = spheres.empty() ? MaterialRef() : spheres[0].material;
   const bool alike = are_alike(spheres, parallel_for);
   Filler filler(padded(scanned.size()), alike ? Materials::alike : Materials::by_slot);
   filler.fill_scanned(scanned_spheres, scanned);
+  filler.add_copies(copies);
   LargeArray<MaterialRef> materials(alike ? 0 : spheres.size());
   const std::span<BuildSphere> others = take_others(spheres, apart, materials.data(), parallel_for);
   if (others.empty()) return filler.finish(first_material);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -17,6 +18,14 @@ namespace boule {
 /// source of a ray that leaves nothing.
 inline constexpr std::int32_t empty_slot = no_primitive - 1;
 
+/// A sphere that was left out: an exact copy of two that were kept, those with the lowest ids.
+struct SphereCopy {
+  std::int32_t first, second;  ///< ids of the kept ones, in order
+  std::int32_t id;
+
+  auto operator<=>(const SphereCopy&) const = default;
+};
+
 /// Spheres in slots, and a tree over those in leaves.
 struct Bvh {
   LargeArray<BvhNode> nodes;       ///< the root first; empty: kernels scan the spheres
@@ -25,6 +34,7 @@ struct Bvh {
   std::size_t scanned = 0;         ///< number of slots outside the leaves, which come first
   LargeArray<SphereBlock> blocks;  ///< sixteen slots each
   SlotMaterials materials;
+  std::vector<SphereCopy> copies;  ///< in order; unknown of a tree from a packed scene
 };
 
 /// The place of the tree to build.
@@ -39,8 +49,8 @@ struct TreePlace {
 /// of the tree is the same for any `parallel_for`. Spheres that no box can hold, and giants
 /// (spheres_apart.h), stay outside the tree and are scanned. Where more copies of one sphere, with
 /// the same centre and radius, lie together than a leaf holds, only the two with the lowest ids are
-/// kept, and likewise outside the tree: every ray's hit stays the same. Takes any spheres, at most
-/// max_primitives; bvh_max_depth bounds the depth.
+/// kept, and likewise outside the tree: every ray's hit stays the same. `copies` has the others.
+/// Takes any spheres, at most max_primitives; bvh_max_depth bounds the depth.
 ///
 /// The spheres' memory is given back while the tree takes their place, so both together need little
 /// more than the tree: 26 bytes a sphere, and 5 more if the materials differ. Throws

@@ -60,8 +60,8 @@ Bvh borrowed(const Bvh& tree) {
   const auto view = []<class T>(const LargeArray<T>& array) {
     return LargeArray<T>::borrowed(array.data(), array.size());
   };
-  return {view(tree.nodes), view(tree.slots), tree.scanned, view(tree.blocks),
-          tree.materials.borrowed()};
+  return {view(tree.nodes),  view(tree.slots),          tree.scanned,
+          view(tree.blocks), tree.materials.borrowed(), tree.copies};
 }
 
 }  // namespace
@@ -116,6 +116,7 @@ Geometry Geometry::of_parts(std::vector<GeometryPart> parts, const std::vector<P
   Geometry geometry(no_bvh({}), 0, planes);
   geometry.parts_ = std::make_shared<const GeometryParts>(std::move(parts));
   geometry.sphere_count_ = geometry.parts_->sphere_count();
+  geometry.bvh_.copies = geometry.parts_->copies();
   return geometry;
 }
 
@@ -132,6 +133,15 @@ Sphere Geometry::sphere(std::uint32_t slot) const {
   return {{block.center_x[k], block.center_y[k], block.center_z[k]},
           block.radius[k],
           bvh_.materials[slot]};
+}
+
+std::span<const SphereCopy> Geometry::copies_of(std::int32_t id) const {
+  constexpr std::int32_t least = std::numeric_limits<std::int32_t>::min();
+  const auto& all = bvh_.copies;
+  const auto first = std::lower_bound(all.begin(), all.end(), SphereCopy{id, least, least});
+  const auto end =
+      std::find_if(first, all.end(), [id](const auto& one) { return one.first != id; });
+  return {first, end};
 }
 
 Plane Geometry::plane(std::int32_t id) const {

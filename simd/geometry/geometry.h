@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -48,6 +49,7 @@ class Geometry {
 
   /// The number of spheres it was built of; planes have the ids from there on.
   [[nodiscard]] std::size_t sphere_count() const { return sphere_count_; }
+  [[nodiscard]] const std::vector<SphereCopy>& copies() const { return bvh_.copies; }
   [[nodiscard]] std::size_t plane_count() const { return plane_count_; }
   /// Whether a hit is that of a plane. Precondition: it is not a miss.
   [[nodiscard]] bool is_plane(const Hit& hit) const {
@@ -63,6 +65,10 @@ class Geometry {
   [[nodiscard]] Sphere sphere(std::uint32_t slot) const;
   /// The plane with this id, in the default material. Precondition: there is one.
   [[nodiscard]] Plane plane(std::int32_t id) const;
+  /// Whether copies of spheres were left out (build_bvh()).
+  [[nodiscard]] bool lacks_copies() const { return !bvh_.copies.empty(); }
+  /// The copies that were left out of which the sphere with this id is the first that was kept.
+  [[nodiscard]] std::span<const SphereCopy> copies_of(std::int32_t id) const;
 
  private:
   Geometry(std::size_t count, std::vector<Sphere>&& spheres, const std::vector<Plane>& planes,

@@ -69,6 +69,16 @@ Sphere GeometryParts::sphere(std::uint32_t slot) const {
   return sphere;
 }
 
+std::vector<SphereCopy> GeometryParts::copies() const {
+  std::vector<SphereCopy> all;
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const std::int32_t before = views_[i].first_id;
+    for (const SphereCopy& copy : parts_[i].tree->copies())
+      all.push_back({before + copy.first, before + copy.second, before + copy.id});
+  }
+  return all;
+}
+
 MaterialRef GeometryParts::material(std::uint32_t slot) const {
   const std::size_t index = part_of(slot);
   const GeometryPart& part = parts_[index];

@@ -9,6 +9,7 @@
 #include "core/math/similarity.h"
 #include "core/scene/primitive.h"
 #include "simd/abi/geometry.h"
+#include "simd/geometry/bvh_builder.h"
 
 namespace boule {
 
@@ -40,6 +41,8 @@ class GeometryParts {
   /// The sphere in a slot, as transformed() places it. Precondition: there is one.
   [[nodiscard]] Sphere sphere(std::uint32_t slot) const;
   [[nodiscard]] MaterialRef material(std::uint32_t slot) const;
+  /// The copies that the trees leave out, by their ids in the scene.
+  [[nodiscard]] std::vector<SphereCopy> copies() const;
 
  private:
   [[nodiscard]] std::size_t part_of(std::uint32_t slot) const;

@@ -108,7 +108,8 @@ std::vector<std::int32_t> find_spheres_apart(const std::vector<Sphere>& spheres,
 }
 
 std::vector<std::int32_t> without_copies(std::vector<std::int32_t> ids,
-                                         const std::vector<Sphere>& spheres) {
+                                         const std::vector<Sphere>& spheres,
+                                         std::vector<SphereCopy>& copies) {
   const auto bits = [&](std::int32_t id) { return bits_of(spheres[static_cast<std::size_t>(id)]); };
   std::sort(ids.begin(), ids.end(), [&](std::int32_t a, std::int32_t b) {
     return std::pair(bits(a), a) < std::pair(bits(b), b);
@@ -116,7 +117,11 @@ std::vector<std::int32_t> without_copies(std::vector<std::int32_t> ids,
   std::size_t kept = 0;
   for (const std::int32_t id : ids) {
     const bool one_too_many = kept >= kept_copies && bits(ids[kept - kept_copies]) == bits(id);
-    if (!one_too_many) ids[kept++] = id;
+    if (one_too_many) {
+      copies.push_back({ids[kept - kept_copies], ids[kept - 1], id});
+    } else {
+      ids[kept++] = id;
+    }
   }
   ids.resize(kept);
   std::sort(ids.begin(), ids.end());

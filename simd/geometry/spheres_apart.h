@@ -7,6 +7,7 @@
 #include "core/base/parallel.h"
 #include "core/scene/primitive.h"
 #include "simd/geometry/build_box.h"
+#include "simd/geometry/bvh_builder.h"
 
 namespace boule {
 
@@ -18,9 +19,10 @@ std::vector<std::int32_t> find_spheres_apart(const std::vector<Sphere>& spheres,
                                              const ParallelFor& parallel_for);
 
 /// Keeps only the first kept_copies (binary_tree.h) of exact copies, with the same centre and
-/// radius. In order, as `ids` are.
+/// radius, and appends the others to `copies`. In order, as `ids` are.
 std::vector<std::int32_t> without_copies(std::vector<std::int32_t> ids,
-                                         const std::vector<Sphere>& spheres);
+                                         const std::vector<Sphere>& spheres,
+                                         std::vector<SphereCopy>& copies);
 
 /// Turns all spheres, except those of the sorted ids `apart`, into spheres of the build, in place:
 /// they are valid as long as `spheres` is left alone. Their materials go to materials[id], unless

@@ -59,6 +59,66 @@ class AllChords {
   Real far_;
 };
 
+/// One ray during traversal, whose children may be visited in any order.
+class ChordWalk {
+ public:
+  BOULE_INLINE ChordWalk(const RayLanes& rays, float extent)
+      : single_(rays, extent), box_rays_(rays, extent) {}
+
+  BOULE_INLINE void visit_children(const BvhNode& node, unsigned /*lanes*/, const Real& /*limit*/,
+                                   float limit, VisitStack& stack) const {
+    for (int first = 0; first < node.size; first += width) {
+      const auto get = [&](const float* row) { return load(row + first); };
+      const Boxes boxes{{get(node.min_x), get(node.min_y), get(node.min_z)},
+                        {get(node.max_x), get(node.max_y), get(node.max_z)}};
+      const Entry entry = enter_boxes(box_rays_, boxes, Real(limit));
+      const unsigned there = (1U << (node.size - first < width ? node.size - first : width)) - 1;
+      for (unsigned in = there & ~bits(entry.out); in != 0; in &= in - 1) {
+        const int k = first + std::countr_zero(in);
+        stack.push_if(true, {-static_cast<float>(no_hit), node.child[k], node.leaf_size[k]});
+      }
+    }
+  }
+  BOULE_INLINE void list_survivors(const LeafSpheres<OnePerLane>& leaf, unsigned lanes,
+                                   const Real& limits, float limit,
+                                   Survivors<bvh_leaf_size>& survivors) const {
+    single_.list_survivors(leaf, lanes, limits, limit, survivors);
+  }
+
+ private:
+  SingleWalk single_;
+  BoxRays box_rays_;
+};
+
+template <class Access, class Search>
+BOULE_INLINE std::size_t with_walk(const RayLanes& rays, const AllChords& /*best*/,
+                                   const BvhView& bvh, const Search& search) {
+  ChordWalk walk(rays, bvh.extent);
+  return search(walk);
+}
+
+/// As traverse_tree() elsewhere, but every child will be visited: its memory is fetched at once.
+template <class Access, class Walk, class Tree, class All>
+BOULE_INLINE std::size_t traverse_tree(const RayLanes& rays, Solver solver, Walk& walk,
+                                       const Tree& tree, const All& all, AllChords& best) {
+  std::size_t visits = 0;
+  VisitStack stack;
+  stack.push_if(true, {-static_cast<float>(no_hit), 0, 0});
+  float limit = limit_of_all<Access>(best.limit());
+  for (; !stack.empty() && !best.done(); ++visits) {
+    const Visit visit = stack.pop();
+    if (visit.leaf_size != 0) {
+      meet_leaf<Access>(rays, solver, walk, all, tree.leaf(visit.child), visit.leaf_size, all_lanes,
+                        limit, best);
+      continue;
+    }
+    const int before = stack.count();
+    walk.visit_children(tree.node(visit.child), all_lanes, best.limit(), limit, stack);
+    for (int at = stack.count() - 1; at >= before; --at) tree.fetch(stack.child(at));
+  }
+  return visits;
+}
+
 /// In place of the scan's functions of the same names, which keep the nearest hit.
 template <class All, class Spheres, std::size_t capacity>
 BOULE_INLINE void meet_survivors(const RayLanes& rays, Solver /*solver*/, const All& /*all*/,

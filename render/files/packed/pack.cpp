@@ -121,7 +121,8 @@ Status Packer::add_apart() {
   std::iota(all.begin(), all.end(), 0);
   std::vector<Sphere> spheres;
   std::vector<std::uint32_t> ids;
-  for (const std::int32_t i : without_copies(all, apart_spheres_)) {
+  std::vector<SphereCopy> copies;  // which a packed scene has no place for
+  for (const std::int32_t i : without_copies(all, apart_spheres_, copies)) {
     spheres.push_back(apart_spheres_[static_cast<std::size_t>(i)]);
     ids.push_back(apart_[static_cast<std::size_t>(i)]);
   }

@@ -6,10 +6,11 @@
 #include <limits>
 #include <map>
 
+#include "core/reference.h"
 #include "render/renderer/tracer.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/ray_clouds.h"
-#include "tests/support/case_random.h"
+#include "tests/render/renderer/overlapping_spheres.h"
 
 namespace boule::test::tracer_lists {
 namespace {
@@ -41,70 +42,13 @@ std::vector<std::vector<Crossing>> crossings(Tracer& tracer, const std::vector<R
   return lists;
 }
 
-/// A chord in long double; `unsure`: the line is so close to the rim that rounding decides.
-struct LongChord {
-  bool met, unsure;
-  long double enter, leave;
-};
-LongChord long_chord(const Ray& ray, const Sphere& sphere) {
-  const auto d = vec_cast<long double>(ray.dir);
-  const auto f = vec_cast<long double>(sphere.center) - vec_cast<long double>(ray.org);
-  const long double r = sphere.radius, a = dot(d, d), middle = dot(f, d) / a;
-  const auto aside = f - d * middle;
-  const long double rest = r * r - dot(aside, aside);
-  const long double doubt = 1e-13L * (r * r + dot(f, f));
-  const long double half = std::sqrt(std::fmax(rest, 0.0L) / a);
-  return {rest >= 0, std::fabs(rest) < doubt, middle - half, middle + half};
-}
-
-struct Case {
-  std::string name;
-  std::vector<Sphere> spheres;
-  double spread;
-};
-/// Spheres that overlap, lie in each other, coincide, and are far from 0 for their size.
-std::vector<Case> cases() {
-  CaseRandom random(61);
-  std::vector<Case> all;
-  const auto point = [&](double spread) {
-    const double x = random.uniform(-spread, spread), y = random.uniform(-spread, spread);
-    return Vec3f{static_cast<float>(x), static_cast<float>(y),
-                 static_cast<float>(random.uniform(-spread, spread))};
-  };
-  Case overlapping{"overlapping", {}, 2}, nested{"nested", {}, 2}, coincident{"coincident", {}, 2},
-      far{"far", {}, 2};
-  for (int i = 0; i < 400; ++i) {
-    const auto r = static_cast<float>(random.uniform(0.05, 0.5));
-    overlapping.spheres.push_back({point(1), r});
-    nested.spheres.push_back({point(0.05), static_cast<float>(random.uniform(0.1, 1.5))});
-    coincident.spheres.push_back({{static_cast<float>(i % 40) / 40, 0, 0}, 0.3F});
-    const Vec3f near = point(1);
-    far.spheres.push_back({{near.x + 1000, near.y - 2000, near.z + 3000}, r});
-  }
-  return {overlapping, nested, coincident, far};
-}
-
-std::vector<Ray> rays_of(const Case& scene, int count) {
-  CaseRandom random(62);
-  const Vec3d middle = scene.name == "far" ? Vec3d{1000, -2000, 3000} : Vec3d{};
-  std::vector<Ray> rays;
-  for (int i = 0; i < count; ++i) {
-    const Vec3d from = random.direction() * (random.uniform(0, 1) * scene.spread);
-    Ray ray{middle + from, vec_cast<float>(random.direction() * random.uniform(0.5, 2))};
-    if (i % 3 == 0) ray.tmin = random.uniform(-2, 1);
-    if (i % 4 == 0) ray.tmax = random.uniform(0, 3);
-    rays.push_back(ray);
-  }
-  return rays;
-}
-
 /// Whether a number is so close to an end that the rounding of t decides.
 bool is_at(long double t, double end, double scale) {
   return std::fabs(t - static_cast<long double>(end)) < 1e-9L * scale;
 }
 
 TEST(TracerLists, CrossingsAreThoseOfLongDouble) {
-  for (const Case& scene : cases()) {
+  for (const SphereCase& scene : sphere_cases()) {
     Tracer tracer = make_tracer(objects(scene.spheres));
     const std::vector<Ray> rays = rays_of(scene, 300);
     const auto found = crossings(tracer, rays);
@@ -135,7 +79,7 @@ TEST(TracerLists, CrossingsAreThoseOfLongDouble) {
 }
 
 TEST(TracerLists, CrossingsComeInOrder) {
-  for (const Case& scene : cases()) {
+  for (const SphereCase& scene : sphere_cases()) {
     Tracer tracer = make_tracer(objects(scene.spheres, {{{0, 0, 0}, {0, 1, 0}}}));
     for (const auto& list : crossings(tracer, rays_of(scene, 300))) {
       for (std::size_t i = 1; i < list.size(); ++i) {
@@ -160,7 +104,7 @@ TEST(TracerLists, TangentsPlanesAndTiesAreExact) {
 }
 
 TEST(TracerLists, LimitKeepsTheFirst) {
-  const Case scene = cases()[0];
+  const SphereCase scene = sphere_cases()[0];
   Tracer tracer = make_tracer(objects(scene.spheres));
   const std::vector<Ray> rays = rays_of(scene, 2000);
   const auto all = crossings(tracer, rays);
@@ -184,7 +128,7 @@ TEST(TracerLists, LimitKeepsTheFirst) {
 /// From hit to hit by tmin = t, every t appears once, as in the list; and each ray that ends at the
 /// next one, or just before it, sees so.
 TEST(TracerLists, NextHitsAreThoseOfTheList) {
-  for (const Case& scene : cases()) {
+  for (const SphereCase& scene : sphere_cases()) {
     for (const Solver solver : {Solver::robust, Solver::reference}) {
       Tracer tracer = make_tracer(objects(scene.spheres), {.solver = solver});
       std::vector<Ray> rays = rays_of(scene, 200);
@@ -222,7 +166,7 @@ TEST(TracerLists, NextHitsAreThoseOfTheList) {
 }
 
 TEST(TracerLists, CountsAreTheLengthsOfLists) {
-  const Case scene = cases()[1];
+  const SphereCase scene = sphere_cases()[1];
   Tracer tracer = make_tracer(objects(scene.spheres));
   const std::vector<Ray> rays = rays_of(scene, 3000);
   const auto lists = crossings(tracer, rays);
@@ -233,81 +177,33 @@ TEST(TracerLists, CountsAreTheLengthsOfLists) {
   EXPECT_FALSE(tracer.count(rays, std::span(counts).first(1)));
 }
 
-/// The union by sweeping over all ends, which shares nothing with the merging of sorted spans.
-long double swept_length(const Ray& ray, const std::vector<Sphere>& spheres) {
-  std::vector<std::pair<long double, int>> ends;
-  for (const Sphere& sphere : spheres) {
-    const LongChord chord = long_chord(ray, sphere);
-    if (!chord.met) continue;
-    const long double low = std::fmax(chord.enter, static_cast<long double>(ray.tmin));
-    const long double high = std::fmin(chord.leave, static_cast<long double>(ray.tmax));
-    if (!(low < high)) continue;
-    ends.emplace_back(low, 1);
-    ends.emplace_back(high, -1);
-  }
-  std::sort(ends.begin(), ends.end());
-  long double length = 0;
-  int depth = 0;
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    if (depth > 0) length += ends[i].first - ends[i - 1].first;
-    depth += ends[i].second;
-  }
-  return length;
-}
-
-TEST(TracerLists, ChordsOfTheUnionAreExact) {
-  for (const Case& scene : cases()) {
-    Tracer tracer = make_tracer(objects(scene.spheres, {{{0, 0.1F, 0}, {0, 1, 0}}}));
-    const std::vector<Ray> rays = rays_of(scene, 500);
-    std::vector<double> lengths(rays.size());
-    ASSERT_TRUE(tracer.chord(rays, lengths));
-    const SphereChords each = tracer.chords(rays).value();
-    const double scale = scene.name == "far" ? 4000 : 4;
-    double most = 0;
-    for (std::size_t k = 0; k < rays.size(); ++k) {
-      // A chord that misses by rounding is shorter than sqrt(1e-13) of the scale.
-      const auto exact = static_cast<double>(swept_length(rays[k], scene.spheres));
-      ASSERT_NEAR(lengths[k], exact, 2e-6 * scale) << scene.name << " ray " << k;
-      most = std::max(most, lengths[k]);
-      std::int32_t last = -1;
-      for (auto i = static_cast<std::size_t>(each.offset[k]);
-           i < static_cast<std::size_t>(each.offset[k + 1]); ++i) {
-        ASSERT_LT(last, each.id[i]);
-        last = each.id[i];
-        const LongChord chord = long_chord(rays[k], scene.spheres[static_cast<std::size_t>(last)]);
-        const long double low = std::fmax(chord.enter, static_cast<long double>(rays[k].tmin));
-        const long double high = std::fmin(chord.leave, static_cast<long double>(rays[k].tmax));
-        ASSERT_NEAR(each.length[i], static_cast<double>(high - low), 2e-6 * scale);
+/// The tree leaves out copies beyond the second, where more lie together than a leaf holds.
+TEST(TracerLists, EveryCopyOfASphereIsCrossed) {
+  std::vector<Sphere> spheres;
+  for (int i = 0; i < 40; ++i) spheres.push_back({{0, 0, 0}, 1});
+  for (int i = 0; i < 200; ++i)
+    spheres.push_back({{3.0F * static_cast<float>(1 + i % 50), 0, 0}, 1});
+  for (int i = 0; i < 30; ++i) spheres.push_back({{0, 0, 0}, 1e6F});  // outside the tree
+  Tracer tracer = make_tracer(objects(spheres));
+  const auto last = static_cast<std::int32_t>(spheres.size()) - 1;
+  for (const std::int32_t source : {no_primitive, 0, 1, 2, 39, 250, 240, 241, last}) {
+    for (const bool inside : {false, true}) {
+      Ray ray{{-1, 0, 0}, {1, 0, 0}};
+      ray.source = source;
+      ray.inside = inside;
+      std::vector<Crossing> expected;
+      for (std::size_t i = 0; i < spheres.size(); ++i) {
+        const auto id = static_cast<std::int32_t>(i);
+        const reference::Chord chord = reference::find_chord(ray, spheres[i], id == source);
+        if (chord.enter > 0) expected.push_back({chord.enter, id, true});
+        if (chord.leave > 0) expected.push_back({chord.leave, id, false});
       }
+      std::sort(expected.begin(), expected.end(), [](const Crossing& a, const Crossing& b) {
+        return std::tuple(a.t, a.id, !a.entering) < std::tuple(b.t, b.id, !b.entering);
+      });
+      EXPECT_EQ(crossings(tracer, {ray})[0], expected) << source << " " << inside;
     }
-    EXPECT_GT(most, 0.3) << scene.name;
   }
-}
-
-TEST(TracerLists, ChordsOfKnownSpheresAreExact) {
-  const Scene scene = objects({{{0, 0, 0}, 2}, {{0, 0, 0}, 1}, {{3, 0, 0}, 2}, {{9, 0, 0}, 1}});
-  Tracer tracer = make_tracer(scene);
-  const auto length = [&](Ray ray) {
-    double value = -1;
-    EXPECT_TRUE(tracer.chord(std::vector<Ray>{ray}, {&value, 1}));
-    return value;
-  };
-  const auto with = [](double x, double tmin, double tmax, std::int32_t source = no_primitive) {
-    Ray ray{{x, 0, 0}, {2, 0, 0}};
-    ray.tmin = tmin;
-    ray.tmax = tmax;
-    ray.source = source;
-    ray.inside = source != no_primitive;
-    return ray;
-  };
-  EXPECT_EQ(length(with(-4, 0, inf)), 4.5);   // -2 .. 5 and 8 .. 10 of x, at twice the speed
-  EXPECT_EQ(length(with(0, 0, inf)), 3.5);    // from the inside
-  EXPECT_EQ(length(with(0, 0, 0.25)), 0.25);  // without any crossing
-  EXPECT_EQ(length(with(0, -inf, inf)), 4.5);
-  EXPECT_EQ(length(with(5.5, 0, 1)), 0);
-  EXPECT_EQ(length(with(0, 1, 1)), 0);
-  EXPECT_EQ(length(with(8, 0, inf, 3)), 1);   // leaves sphere 3 on its inside
-  EXPECT_EQ(length(with(8, -1, inf, 3)), 1);  // and was not in it before
 }
 
 TEST(TracerLists, SourcesAreLeftAsInSearches) {
@@ -324,7 +220,7 @@ TEST(TracerLists, SourcesAreLeftAsInSearches) {
 }
 
 TEST(TracerLists, SameForEveryIsaThreadAndCut) {
-  const Case scene = cases()[0];
+  const SphereCase scene = sphere_cases()[0];
   const std::vector<Ray> rays = rays_of(scene, 3000);
   Tracer reference = make_tracer(objects(scene.spheres), {.solver = Solver::reference});
   const auto expected = crossings(reference, rays);

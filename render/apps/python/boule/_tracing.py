@@ -180,8 +180,8 @@ class Tracer(Strict):
 
         A sphere is crossed twice, where the ray enters and where it leaves; a plane once. Other
         arguments are those of closest(); rays of other shapes than N are counted in C order.
-        Decisions are exact, whatever the solver. Of more than 16 exact copies of one sphere, at
-        least two are found. Returns Crossings.
+        Decisions are exact, whatever the solver. Of more than 16 exact copies of one sphere in a
+        packed scene, two are found. Returns Crossings.
         """
         if limit is not None and (not isinstance(limit, int) or isinstance(limit, bool)):
             raise error("limit", f"expected a whole number, got {type(limit).__name__}")
