@@ -42,9 +42,8 @@ inline auto scene_choices() {
 
 namespace detail {
 
-inline auto picture_choices() {
+inline auto size_choices() {
   using J = RenderJob;
-  using O = RenderOptions;
   using namespace heading;
   return std::tuple{
       choice<J>(
@@ -57,6 +56,14 @@ inline auto picture_choices() {
                 "Width of the printed picture, such as 85mm: pixels by --dpi, --size is the shape"),
       choice<J>(picture, "dpi", &J::dpi, rule::from_to(1, 10000), "N",
                 "Pixels per inch, which the picture's file tells (300 with --width)"),
+  };
+}
+
+inline auto sample_choices() {
+  using J = RenderJob;
+  using O = RenderOptions;
+  using namespace heading;
+  return std::tuple{
       choice<J>(picture, "spp", &J::spp, rule::samples, "N", "Samples per pixel"),
       choice<J>(
           picture, "noise", &J::noise, rule::noise, "X",
@@ -70,6 +77,14 @@ inline auto picture_choices() {
       choice<J>(picture, "filter", &J::filter, NameRule{}, "",
                 "How a pixel is made of samples: the pixel alone, or with its surroundings",
                 &O::filter),
+  };
+}
+
+inline auto picture_choices() {
+  using J = RenderJob;
+  using O = RenderOptions;
+  using namespace heading;
+  return std::tuple{
       choice<J>(picture, "background", &J::background,
                 TextRule{parse_background, "a colour such as #ffffff or white, or transparent", ',',
                          hint_background},
@@ -129,7 +144,8 @@ inline auto light_and_work_choices() {
 
 /// The other options of a RenderJob, in the order of the help.
 inline auto render_choices() {
-  return std::tuple_cat(detail::picture_choices(), detail::light_and_work_choices());
+  return std::tuple_cat(detail::size_choices(), detail::sample_choices(), detail::picture_choices(),
+                        detail::light_and_work_choices());
 }
 
 }  // namespace boule
