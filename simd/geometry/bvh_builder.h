@@ -1,8 +1,8 @@
 #pragma once
 
-#include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "core/base/parallel.h"
@@ -23,7 +23,9 @@ struct SphereCopy {
   std::int32_t first, second;  ///< ids of the kept ones, in order
   std::int32_t id;
 
-  auto operator<=>(const SphereCopy&) const = default;
+  friend bool operator<(const SphereCopy& a, const SphereCopy& b) {
+    return std::tie(a.first, a.id) < std::tie(b.first, b.id);
+  }
 };
 
 /// Spheres in slots, and a tree over those in leaves.
