@@ -66,7 +66,7 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("first_instances"), json::array());
   EXPECT_EQ(found.at("warnings"), json::array());
   EXPECT_EQ(found.at("notes"), json::array());
-  EXPECT_EQ(found.size(), 30u);
+  EXPECT_EQ(found.size(), 32u);
 }
 
 TEST_F(Info, WhatInstancesShowIsCountedAndFramed) {

@@ -59,7 +59,7 @@ TEST(TomlFields, EveryListedKeyIsKnown) {
   EXPECT_EQ(expect_known(Plane{}, "[[plane]]"), 3);
   EXPECT_EQ(expect_known(Instance{}, "[group.g]\n[[instance]]"), 5);
   EXPECT_EQ(expect_known(ImageSettings{}, "[image]"), 5);
-  EXPECT_EQ(expect_known(RenderSettings{}, "[render]"), 4);
+  EXPECT_EQ(expect_known(RenderSettings{}, "[render]"), 6);
   const std::string camera = "[camera]\neye = [0, 0, 1]\nlook_at = [0, 0, 0]\n";
   EXPECT_EQ(expect_known(DistortionMap{}, camera + "[camera.distortion]"), 1);
 }
