@@ -1,6 +1,8 @@
 #include "render/renderer/trace_worker.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace boule {
 namespace {
@@ -24,13 +26,32 @@ Hit first_hit(std::span<const RayChord> chords, const RayInterval& interval) {
   return nearest;
 }
 
-/// Whether a ray enters the primitive at this hit. A tangent enters.
+bool is_nearer_to_enter(double t, const reference::Chord& chord) {
+  return t - chord.enter <= chord.leave - t;
+}
+
+/// Whether a ray enters the sphere that it hits at t. A tangent enters. The ray enters before the
+/// middle of its chord, and leaves behind it: only of a chord shorter than rounding may decide are
+/// both ends needed.
+bool enters(const Sphere& sphere, const Ray& ray, double t, bool leaves) {
+  constexpr double shortest = 1e-9;  // half chord, in distances of the centre
+  const Vec3d d = vec_cast<double>(ray.dir), f = vec_cast<double>(sphere.center) - ray.org;
+  const double a = dot(d, d), behind = t * a - dot(f, d);
+  if (!leaves && behind * behind > shortest * shortest * (dot(f, f) * a)) return behind < 0;
+  return is_nearer_to_enter(t, reference::find_chord(ray, sphere, leaves));
+}
+
+/// Whether a ray enters the primitive at this hit.
 bool enters(const Geometry& geometry, const Ray& ray, const Hit& hit) {
   const bool leaves = hit.id == ray.source;
-  const reference::Chord chord =
-      geometry.is_plane(hit) ? reference::find_chord(ray, geometry.plane(hit.id), leaves)
-                             : reference::find_chord(ray, geometry.sphere(hit.slot), leaves);
-  return hit.t - chord.enter <= chord.leave - hit.t;
+  if (!geometry.is_plane(hit)) return enters(geometry.sphere(hit.slot), ray, hit.t, leaves);
+  return is_nearer_to_enter(hit.t, reference::find_chord(ray, geometry.plane(hit.id), leaves));
+}
+
+/// Whether a stream has this end of a ray as it is.
+bool is_float(double end) {
+  constexpr double largest{std::numeric_limits<float>::max()};
+  return std::fabs(end) <= largest ? double{static_cast<float>(end)} == end : std::isinf(end);
 }
 
 void put(const HitStream& hits, std::size_t k, const Hit& hit) {
@@ -50,8 +71,7 @@ void TraceWorker::start(std::size_t count) {
 void TraceWorker::set(std::size_t k, const Ray& ray) {
   rays_.set(k, ray);
   ends_[k] = {ray.tmin, ray.tmax};
-  const Ray rounded = rays_.get(k);
-  if (rounded.tmin != ray.tmin || rounded.tmax != ray.tmax) rounded_.push_back(k);
+  if (!is_float(ray.tmin) || !is_float(ray.tmax)) rounded_.push_back(k);
 }
 
 void TraceWorker::meet_closest(const TraceTarget& target) {
