@@ -46,7 +46,7 @@ Status validate_edges(const RenderOptions& options) {
                              "is for method whitted: where paths have noise, ask for noise");
   }
   if (options.noise > 0)
-    return Diagnostic::about("render.aa", "and noise are both asked for: choose one, 0 is none");
+    return Diagnostic::about("render.aa", "cannot stand beside noise: choose one, 0 is none");
   return {};
 }
 

@@ -30,22 +30,27 @@ bool is_nearer_to_enter(double t, const reference::Chord& chord) {
   return t - chord.enter <= chord.leave - t;
 }
 
-/// Whether a ray enters the sphere that it hits at t. A tangent enters. The ray enters before the
-/// middle of its chord, and leaves behind it: only of a chord shorter than rounding may decide are
-/// both ends needed.
-bool enters(const Sphere& sphere, const Ray& ray, double t, bool leaves) {
+/// Whether a ray from elsewhere enters the sphere that it surely hits at t. A tangent enters. The
+/// ray enters before the middle of its chord, and leaves behind it: only of a chord so short that
+/// rounding may decide are both ends needed.
+bool enters(const Sphere& sphere, const Ray& ray, double t) {
   constexpr double shortest = 1e-9;  // half chord, in distances of the centre
   const Vec3d d = vec_cast<double>(ray.dir), f = vec_cast<double>(sphere.center) - ray.org;
   const double a = dot(d, d), behind = t * a - dot(f, d);
-  if (!leaves && behind * behind > shortest * shortest * (dot(f, f) * a)) return behind < 0;
-  return is_nearer_to_enter(t, reference::find_chord(ray, sphere, leaves));
+  if (behind * behind > shortest * shortest * (dot(f, f) * a)) return behind < 0;
+  return is_nearer_to_enter(t, reference::find_chord(ray, sphere, false));
 }
 
-/// Whether a ray enters the primitive at this hit.
-bool enters(const Geometry& geometry, const Ray& ray, const Hit& hit) {
+/// Whether a ray enters the primitive at this hit. Where the solver fast finds a hit of a line that
+/// misses, it does not.
+bool enters(const TraceTarget& target, const Ray& ray, const Hit& hit) {
+  const Geometry& geometry = target.geometry;
   const bool leaves = hit.id == ray.source;
-  if (!geometry.is_plane(hit)) return enters(geometry.sphere(hit.slot), ray, hit.t, leaves);
-  return is_nearer_to_enter(hit.t, reference::find_chord(ray, geometry.plane(hit.id), leaves));
+  if (geometry.is_plane(hit))
+    return is_nearer_to_enter(hit.t, reference::find_chord(ray, geometry.plane(hit.id), leaves));
+  const Sphere sphere = geometry.sphere(hit.slot);
+  if (!leaves && target.solver != Solver::fast) return enters(sphere, ray, hit.t);
+  return is_nearer_to_enter(hit.t, reference::find_chord(ray, sphere, leaves));
 }
 
 /// Whether a stream has this end of a ray as it is.
@@ -111,7 +116,7 @@ TracedHit TraceWorker::traced(const TraceTarget& target, std::size_t k, std::siz
   const Hit hit = hits_.get(k);
   if (hit.id == no_primitive) return {};
   return {hit.t, hit.id, vec_cast<float>(surfaces_.normal.get(surface)),
-          enters(target.geometry, rays_.get(k), hit)};
+          enters(target, rays_.get(k), hit)};
 }
 
 /// Where the ends of a ray are no floats, a hit is certain if the ray meets something between the

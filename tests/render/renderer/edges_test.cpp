@@ -245,7 +245,7 @@ TEST(Edges, RefuseWhatTheyAreNotFor) {
   EXPECT_EQ(error_of([](RenderOptions& o) { o.method = Method::path; }),
             "render.aa is for method whitted: where paths have noise, ask for noise");
   EXPECT_EQ(error_of([](RenderOptions& o) { o.noise = 0.1F; }),
-            "render.aa and noise are both asked for: choose one, 0 is none");
+            "render.aa cannot stand beside noise: choose one, 0 is none");
   scene.camera = ThinLensCamera{{{0, 2, 7}, {0, 0, 0}, {0, 1, 0}}, 45, FovAxis::x, 0.1F};
   EXPECT_EQ(error_of([](RenderOptions&) {}),
             "render.aa is for cameras without a lens: where it blurs, ask for noise");

@@ -58,8 +58,11 @@ RenderOptions run_options(const Scene& scene, const RenderCommand& command) {
 /// The command line's name for a key of the render options, which alone knows whether they agree;
 /// other keys are the scene's and stay.
 std::string option_of(const std::string& key) {
-  constexpr std::pair<std::string_view, const char*> options[] = {
-      {"image.size", "--size"}, {"image.spp", "--spp"}, {"aov", "--aov"}, {"crop", "--crop"}};
+  constexpr std::pair<std::string_view, const char*> options[] = {{"image.size", "--size"},
+                                                                  {"image.spp", "--spp"},
+                                                                  {"render.aa", "--aa"},
+                                                                  {"aov", "--aov"},
+                                                                  {"crop", "--crop"}};
   for (const auto& [of_options, option] : options) {
     if (key == of_options) return option;
   }
@@ -71,7 +74,8 @@ std::string option_of(const std::string& key) {
 ExitCode refuse_scene(Diagnostic error, const RenderCommand& command) {
   const bool of_scene = error.key == "instance" ||
                         (error.key == "image.size" && !command.size && !command.width) ||
-                        (error.key == "image.spp" && !command.spp && !command.min_spp);
+                        (error.key == "image.spp" && !command.spp && !command.min_spp) ||
+                        (error.key == "render.aa" && !command.aa);
   if (of_scene) error.file = command.scene;
   const bool of_usage = !of_scene && !error.key.empty();
   if (of_usage) error.key = option_of(error.key);

@@ -157,6 +157,8 @@ TEST_F(Errors, ConflictsNameTheOptionsAsGiven) {
   EXPECT_THAT(error({"--crop", "0,0,5000,5000"}), HasSubstr("(key '--crop')"));
   EXPECT_THAT(error({"--noise", "0.01", "--spp", "8"}), HasSubstr("(key '--spp')"));
   EXPECT_THAT(error({"--aov", "noise"}), HasSubstr("(key '--aov')"));
+  EXPECT_THAT(error({"--aa", "8", "--noise", "0.1"}), HasSubstr("(key '--aa')"));
+  EXPECT_THAT(error({"--aa", "8", "--method", "path"}), HasSubstr("(key '--aa')"));
 }
 
 TEST_F(Errors, SkippingNeedsMarkedCrops) {
