@@ -27,8 +27,9 @@ class BlockTools {
   bool render(const PixelRect& block, const LivePass& pass, Film& film) {
     return worker_.render(block, pass, film);
   }
-  /// Renders a block until its noise is that of the options. Returns false after a cancellation;
-  /// then pixels without samples must be rendered again. Precondition: the options ask for noise.
+  /// Renders a block until its noise, or its edges, are as the options ask. Returns false after a
+  /// cancellation; then pixels without samples must be rendered again. Precondition: they ask for
+  /// one of the two.
   bool measure(const PixelRect& block, MeasuredPicture& picture) {
     return worker_.measure(block, picture);
   }

@@ -50,13 +50,13 @@ class BlockWorker {
   /// The same for the pixels that a pass picks, and for the samples of that pass.
   bool render(const PixelRect& block, const LivePass& pass, Film& film);
 
-  /// Renders all samples of a block, or those that `setup.noise` asks for, and writes their means
+  /// Renders all samples of a block, or those that noise or edges ask for, and writes their means
   /// into `image`, a picture of the frame's pixels in `rect`. The samples are in a film of this
   /// block alone, which stays in the cache.
   bool render(const PixelRect& block, int until, Image& image, const PixelRect& rect);
 
-  /// Gives the pixels of a block samples until their noise is that of `setup.noise`. Returns false
-  /// after a cancellation; then pixels without samples must be rendered again.
+  /// Gives the pixels of a block samples until they are as `setup.noise` or `setup.edges` asks.
+  /// Returns false after a cancellation; then pixels without samples must be rendered again.
   bool measure(const PixelRect& block, MeasuredPicture& picture);
 
   /// All rays that this worker traced.

@@ -57,7 +57,7 @@ class Renderer {
   /// The same with the noise and the number of samples of each pixel, and without the outline, into
   /// a picture without samples. An error after a cancellation; the picture keeps the finished
   /// pixels. If there is a `preview`, it first gets a sample of every pixel, so that you can show
-  /// it early. Preconditions: options().noise > 0; both have the pixels of rect().
+  /// it early. Preconditions: is_measured(options()); both have the pixels of rect().
   Status render_measured(MeasuredPicture& picture, Film* preview = nullptr);
 
   /// Renders the same picture in bands of rows from the top, so that only some of them are in
