@@ -139,8 +139,8 @@ void spread(RayLists<Item>& lists, const Copy& copy) {
 }  // namespace
 
 /// make_list() makes a function for one block: list(worker, k, chords, items) appends the items of
-/// ray k of the worker. Results that exceed the
-/// memory are counted and not kept. `name`: of the items.
+/// ray k of the worker. Results that exceed the memory are counted and not kept. `name`: of the
+/// items.
 template <class Item, class MakeList>
 Result<RayLists<Item>> Tracer::list_items(const RayView& rays, const std::string& name,
                                           const MakeList& make_list) {
