@@ -1,10 +1,9 @@
 #include "render/prepare/view_notes.h"
 
-#include <cmath>
 #include <cstddef>
 
-#include "core/math/geometry.h"
 #include "core/optics/camera_ray.h"
+#include "render/prepare/projection.h"
 
 namespace boule {
 namespace {
@@ -24,44 +23,16 @@ bool repeats_rays(const CameraView& camera, int width, int height) {
   return false;
 }
 
-/// How spheres come into the picture of a camera whose rays are straight.
-class SizeInPicture {
- public:
-  SizeInPicture(const CameraView& camera, int width)
-      : camera_(camera), pixel_(2 * length(camera.right) / width) {}
-
-  /// Whether the middle of a sphere is in the picture.
-  [[nodiscard]] bool shows(const Sphere& sphere) const {
-    const Vec3d way = vec_cast<double>(sphere.center) - camera_.eye;
-    const double reach = distance_factor(way);
-    return reach > 0 && is_within(way, camera_.right, reach) && is_within(way, camera_.up, reach);
-  }
-  [[nodiscard]] bool is_small(const Sphere& sphere) const {
-    const Vec3d way = vec_cast<double>(sphere.center) - camera_.eye;
-    return 2 * static_cast<double>(sphere.radius) < pixel_ * distance_factor(way);
-  }
-
- private:
-  /// By how much the film's extent grows up to there.
-  [[nodiscard]] double distance_factor(const Vec3d& way) const {
-    return camera_.kind == CameraKind::orthographic ? 1 : dot(way, camera_.forward);
-  }
-  static bool is_within(const Vec3d& way, const Vec3d& half, double reach) {
-    return std::fabs(dot(way, half)) <= reach * dot(half, half);
-  }
-
-  const CameraView& camera_;
-  double pixel_;  ///< its width at the distance 1
-};
-
-bool are_small(const CameraView& camera, int width, const std::vector<Sphere>& spheres) {
+bool are_small(const CameraView& camera, int width, int height,
+               const std::vector<Sphere>& spheres) {
   if (camera.kind == CameraKind::fisheye || camera.kind == CameraKind::lens) return false;
-  const SizeInPicture size(camera, width);
+  const Projection projection(camera, width);
   std::size_t shown = 0, small = 0;
   for (const Sphere& sphere : spheres) {
-    if (!size.shows(sphere)) continue;
+    const auto disc = projection.of(sphere);
+    if (!disc || !(disc->x >= 0 && disc->x <= width && disc->y >= 0 && disc->y <= height)) continue;
     ++shown;
-    small += size.is_small(sphere) ? 1 : 0;
+    small += 2 * disc->radius < 1 ? 1 : 0;
   }
   return small > shown / 2;
 }
@@ -97,7 +68,7 @@ std::vector<std::string> view_notes(const CameraView& camera, int width, int hei
         "neighbouring pixels have the same ray, whose direction is of 32-bit floats: come nearer "
         "with a wider field of view, or take an orthographic camera");
   }
-  if (are_small(camera, width, spheres)) {
+  if (are_small(camera, width, height, spheres)) {
     notes.emplace_back(
         "most spheres are smaller than a pixel and may not show: make the picture or the radii "
         "larger, or come nearer");
