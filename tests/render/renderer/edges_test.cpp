@@ -9,7 +9,7 @@
 #include "render/prepare/prepared_scene.h"
 #include "render/renderer/renderer.h"
 #include "render/renderer/small_spheres.h"
-#include "tests/support/bit_hash.h"
+#include "tests/render/renderer/measured_pictures.h"
 
 namespace boule::test::edges {
 namespace {
@@ -41,27 +41,6 @@ RenderOptions options_with(float aa) {
   options.threads = 2;
   return options;
 }
-
-MeasuredPicture measured(const Scene& scene, const RenderOptions& options) {
-  Renderer renderer = Renderer::create(scene, options).value();
-  MeasuredPicture picture(renderer.rect());
-  EXPECT_TRUE(renderer.render_measured(picture));
-  return picture;
-}
-
-std::uint64_t hash_of(const MeasuredPicture& picture, const PixelRect& rect) {
-  BitHash hash;
-  for (int y = rect.y0; y < rect.y1; ++y) {
-    for (const MeasuredPixel& pixel : picture.row(rect.x0, rect.x1, y)) {
-      for (const float x : {pixel.color.r, pixel.color.g, pixel.color.b, pixel.alpha, pixel.noise})
-        hash.add(x);
-      hash.add(static_cast<float>(pixel.samples));
-    }
-  }
-  return hash.value();
-}
-
-std::uint64_t hash_of(const MeasuredPicture& picture) { return hash_of(picture, picture.rect()); }
 
 double mean_samples(const MeasuredPicture& picture) {
   return noise_reached(picture, 64).mean_samples;

@@ -11,7 +11,7 @@
 #include "render/renderer/noise_block.h"
 #include "render/renderer/renderer.h"
 #include "tests/render/path_scenes.h"
-#include "tests/support/bit_hash.h"
+#include "tests/render/renderer/measured_pictures.h"
 
 namespace boule::test::noise {
 namespace {
@@ -26,28 +26,6 @@ RenderOptions noisy_options(const Scene& scene) {
   options.threads = 2;
   return options;
 }
-
-MeasuredPicture measured(const Scene& scene, const RenderOptions& options) {
-  Renderer renderer = Renderer::create(scene, options).value();
-  MeasuredPicture picture(renderer.rect());
-  EXPECT_TRUE(renderer.render_measured(picture));
-  return picture;
-}
-
-/// Of the pixels in `rect`.
-std::uint64_t hash_of(const MeasuredPicture& picture, const PixelRect& rect) {
-  BitHash hash;
-  for (int y = rect.y0; y < rect.y1; ++y) {
-    for (const MeasuredPixel& pixel : picture.row(rect.x0, rect.x1, y)) {
-      for (const float x : {pixel.color.r, pixel.color.g, pixel.color.b, pixel.alpha, pixel.noise})
-        hash.add(x);
-      hash.add(static_cast<float>(pixel.samples));
-    }
-  }
-  return hash.value();
-}
-
-std::uint64_t hash_of(const MeasuredPicture& picture) { return hash_of(picture, picture.rect()); }
 
 TEST(Noise, IgnoresThreadsTilesAndOrders) {
   const Scene scene = path_scene(width, height);
