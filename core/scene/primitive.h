@@ -38,6 +38,21 @@ inline constexpr auto fields<Plane> = field_list("plane",
                                                  field("material", &Plane::material,
                                                        rule::material));
 
+/// All points within `radius` of the segment from `a` to `b`, both part of it; a sphere if they are
+/// equal.
+struct Capsule {
+  Vec3f a{};
+  Vec3f b{};
+  float radius = 1;
+  MaterialRef material{};
+};
+
+template <>
+inline constexpr auto fields<Capsule> = field_list(
+    "capsule", field("a", &Capsule::a, rule::point), field("b", &Capsule::b, rule::point),
+    field("radius", &Capsule::radius, rule::positive),
+    field("material", &Capsule::material, rule::material));
+
 /// True if a sphere by itself has no Problem. Short and inline, because there may be millions.
 inline bool is_valid(const Sphere& sphere) {
   const auto& [x, y, z] = sphere.center;
@@ -47,9 +62,10 @@ inline bool is_valid(const Sphere& sphere) {
   return zero == 0 && radius > 0;
 }
 
-/// The first Problem of a sphere or plane by itself: a field against its rule. validate() checks
+/// The first Problem of a primitive by itself: a field against its rule. validate() checks
 /// whether the scene has the material.
 std::optional<Problem> find_problem(const Sphere& sphere);
 std::optional<Problem> find_problem(const Plane& plane);
+std::optional<Problem> find_problem(const Capsule& capsule);
 
 }  // namespace boule
