@@ -24,11 +24,20 @@ double first_in_range(const Chord& chord, const Ray& ray) {
   return in_range(chord.leave, ray) ? chord.leave : no_hit;
 }
 
+/// Whether a chord of a bounded primitive has a part in the ray's interval.
+bool has_part(const Chord& chord, const Ray& ray) {
+  const double end = std::fmin(ray.tmax, double{std::numeric_limits<float>::max()});
+  return ray.tmin < ray.tmax && ray.tmin < end && chord.leave > ray.tmin && chord.enter <= end;
+}
+
 }  // namespace
 
 bool overlaps(const Chord& chord, const Ray& ray, const Sphere& /*sphere*/) {
-  const double end = std::fmin(ray.tmax, double{std::numeric_limits<float>::max()});
-  return ray.tmin < ray.tmax && ray.tmin < end && chord.leave > ray.tmin && chord.enter <= end;
+  return has_part(chord, ray);
+}
+
+bool overlaps(const Chord& chord, const Ray& ray, const Capsule& /*capsule*/) {
+  return has_part(chord, ray);
 }
 
 bool overlaps(const Chord& chord, const Ray& ray, const Plane& /*plane*/) {
@@ -101,7 +110,70 @@ double intersect(const Ray& ray, const Plane& plane, bool leaves) {
   return first_in_range(find_chord(ray, plane, leaves), ray);
 }
 
-Hit closest_hit(const Ray& ray, std::span<const Sphere> spheres, std::span<const Plane> planes) {
+// Ray-capsule. A capsule is the union of the balls of radius r around the points A + su of a
+// segment, u = B - A and 0 <= s <= 1. With l and v, the parts of A - O and u across the ray, the
+// ball at s has its centre l + sv away from the ray's line. So the line hits the capsule if it hits
+// the ball that comes nearest to it: the s at which |l + sv| is least, moved to the ends of the
+// segment.
+//
+// The line enters the capsule where it enters one of the balls. Over all s, the ball at s is
+// entered at b(s) - sqrt(r^2 - |l + sv|^2) along the line, a convex function of s that is least at
+//   s* - h cos / |v|,  where s* is the nearest s, h^2 = r^2 - |l + s*v|^2, and cos = u.d / |u| |d|,
+// and it leaves the last ball at s* + h cos / |v|; again both are moved to the ends of the segment.
+// Where a line runs nearly along the tube, s is known less well, but as the ball is the first one,
+// an error in s moves t by the square of that error only.
+struct Balls {
+  Vec3d d, f, u;  // the ray's direction, A - O, B - A
+  double r, inverse_a;
+
+  // The line in the ball at s, which it hits, perhaps but for rounding.
+  [[nodiscard]] Chord chord_at(double s) const {
+    const Vec3d g = f + u * s;
+    const double b = dot(g, d);
+    const Vec3d l = g - d * (b * inverse_a);
+    const double found = r * r - dot(l, l), discriminant = found < 0 ? 0 : found;
+    const double half_chord = std::sqrt(dot(d, d) * discriminant);
+    const double q = std::signbit(b) ? b - half_chord : b + half_chord;
+    const double from_a = q * inverse_a;
+    const double from_cc = discriminant > 0 ? (dot(g, g) - r * r) / q : from_a;
+    return from_cc < from_a ? Chord{from_cc, from_a} : Chord{from_a, from_cc};
+  }
+};
+
+double on_segment(double s) { return s > 0 ? (s < 1 ? s : 1.0) : 0.0; }  // NaN: 0
+
+Chord find_chord(const Ray& ray, const Capsule& capsule, bool leaves) {
+  if (leaves && !ray.inside) return no_chord;  // convex: a ray that leaves it never hits it again
+  const Vec3d d = vec_cast<double>(ray.dir), a = vec_cast<double>(capsule.a);
+  const Vec3d f = a - ray.org, u = vec_cast<double>(capsule.b) - a;
+  const double r = capsule.radius, inverse_a = 1 / dot(d, d);
+  const double along = dot(u, d);
+  const Vec3d l = f - d * (dot(f, d) * inverse_a), v = u - d * (along * inverse_a);
+  const double vv = dot(v, v);
+  const bool is_parallel = !(vv > 0);
+  const double nearest = is_parallel ? 0 : -dot(l, v) / vv;
+
+  const Vec3d closest = l + v * on_segment(nearest);
+  const double discriminant = r * r - dot(closest, closest);
+  // NaN is a miss. A ray that starts on the surface and goes in is in the capsule.
+  if (!(discriminant >= 0) && !leaves) return no_chord;
+
+  const Vec3d off_axis = l + v * nearest;
+  const double hh = r * r - dot(off_axis, off_axis), h = std::sqrt(hh < 0 ? 0 : hh);
+  const double size = std::sqrt(dot(u, u) * vv) * std::sqrt(dot(d, d));
+  const double lean = is_parallel ? std::copysign(no_hit, along) : h * along / size;
+  const Balls balls{d, f, u, r, inverse_a};
+  const double enter = balls.chord_at(on_segment(nearest - lean)).enter;
+  const double leave = balls.chord_at(on_segment(nearest + lean)).leave;
+  return {leaves ? -no_hit : enter, leave};
+}
+
+double intersect(const Ray& ray, const Capsule& capsule, bool leaves) {
+  return first_in_range(find_chord(ray, capsule, leaves), ray);
+}
+
+Hit closest_hit(const Ray& ray, std::span<const Sphere> spheres, std::span<const Plane> planes,
+                std::span<const Capsule> capsules) {
   Hit nearest;
   std::int32_t id = 0;
   const auto offer = [&](const auto& primitive) {
@@ -111,11 +183,13 @@ Hit closest_hit(const Ray& ray, std::span<const Sphere> spheres, std::span<const
   };
   for (const Sphere& sphere : spheres) offer(sphere);
   for (const Plane& plane : planes) offer(plane);
+  for (const Capsule& capsule : capsules) offer(capsule);
   return nearest;
 }
 
-bool any_hit(const Ray& ray, std::span<const Sphere> spheres, std::span<const Plane> planes) {
-  return closest_hit(ray, spheres, planes).id != no_primitive;
+bool any_hit(const Ray& ray, std::span<const Sphere> spheres, std::span<const Plane> planes,
+             std::span<const Capsule> capsules) {
+  return closest_hit(ray, spheres, planes, capsules).id != no_primitive;
 }
 
 }  // namespace boule::reference

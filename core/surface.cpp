@@ -11,7 +11,7 @@ ArrivalOf<double> arrive(const Ray& ray, const Hit& hit) {
 }
 
 Surface surface_of(const ArrivalOf<double>& ray, const ContactOf<double>& contact, const Hit& hit,
-                   bool sphere) {
+                   bool solid) {
   const Vec3d view = normalize(ray.dir), normal = facing_normal(contact, view);
   const double cosine = facing_cosine(normal, view);
   return {.point = ray.point,
@@ -22,7 +22,7 @@ Surface surface_of(const ArrivalOf<double>& ray, const ContactOf<double>& contac
           .reach = contact.reach,
           .id = hit.id,
           .inner = contact.inner,
-          .sphere = sphere};
+          .solid = solid};
 }
 
 }  // namespace
@@ -40,6 +40,12 @@ Surface find_surface(const Plane& plane, const Ray& ray, const Hit& hit) {
   return surface_of(arrival, contact, hit, false);
 }
 
+Surface find_surface(const Capsule& capsule, const Ray& ray, const Hit& hit) {
+  const auto arrival = arrive(ray, hit);
+  const Vec3d a = vec_cast<double>(capsule.a), u = vec_cast<double>(capsule.b) - a;
+  return surface_of(arrival, meet_capsule(arrival, a, u, double{capsule.radius}), hit, true);
+}
+
 Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> planes, const Ray& ray,
                      const Hit& hit) {
   const auto i = static_cast<std::uint32_t>(hit.id);
@@ -49,9 +55,9 @@ Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> pla
 
 Departure depart(const Surface& surface, Side side) {
   const Vec3d& normal = surface.normal;
-  // The ray continues within a sphere if it came from within and returns, or comes in from outside.
+  // The ray continues within a solid if it came from within and returns, or comes in from outside.
   return {move_off(surface.point, side == Side::viewer ? normal : -normal, surface.reach),
-          surface.id, surface.sphere && surface.inner == (side == Side::viewer)};
+          surface.id, surface.solid && surface.inner == (side == Side::viewer)};
 }
 
 Ray leave(const Surface& surface, Side side, const Vec3d& direction) {

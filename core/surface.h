@@ -18,10 +18,10 @@ struct Surface {
   Vec3d view;       ///< the ray's direction V, unit length
   Vec3d mirrored;   ///< R = V - 2 (N.V) N (lecture "Reflection"), unit length
   double cosine;    ///< -N.V, in [0, 1]
-  double reach;     ///< the error of `point` is relative to this: F + r
+  double reach;     ///< the error of `point` is relative to this: F + r (capsule: F + length + r)
   std::int32_t id;  ///< the primitive
-  bool inner;       ///< hit on the sphere's inside, or on the plane's back
-  bool sphere;
+  bool inner;       ///< hit on the inside of a sphere or capsule, or on the plane's back
+  bool solid;       ///< of a sphere or capsule
 };
 
 /// The side to which a ray leaves a surface: the viewer's side, or beyond.
@@ -31,6 +31,7 @@ enum class Side { viewer, beyond };
 /// miss.
 Surface find_surface(const Sphere& sphere, const Ray& ray, const Hit& hit);
 Surface find_surface(const Plane& plane, const Ray& ray, const Hit& hit);
+Surface find_surface(const Capsule& capsule, const Ray& ray, const Hit& hit);
 
 /// The same among these primitives, by id: the spheres, then the planes. Precondition, unchecked:
 /// the id exists.

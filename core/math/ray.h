@@ -28,7 +28,7 @@ struct Ray {
   double tmin = 0;
   double tmax = std::numeric_limits<double>::infinity();
   std::int32_t source = no_primitive;  ///< primitive the ray leaves, or no_primitive
-  /// The ray starts on the surface of `source`, a sphere, and goes to its inside.
+  /// The ray starts on the surface of `source`, a sphere or capsule, and goes to its inside.
   bool inside = false;
 };
 
@@ -60,7 +60,8 @@ inline Ray segment(const Vec3d& from, const Vec3d& to) {
 struct Hit {
   double t = std::numeric_limits<double>::infinity();
   std::int32_t id = no_primitive;
-  std::uint32_t slot = 0;  ///< slot of a sphere in a Geometry; undefined for other hits
+  /// The slot of a sphere or a capsule in a Geometry; undefined for other hits.
+  std::uint32_t slot = 0;
 };
 
 }  // namespace boule

@@ -7,8 +7,8 @@
 
 namespace boule {
 
-/// The geometry of hits with spheres and planes, as formulas for doubles and for lanes of them: see
-/// Surface. They take any numbers; numbers that are not finite give such numbers.
+/// The geometry of hits with spheres, planes and capsules, as formulas for doubles and for lanes of
+/// them: see Surface. They take any numbers; numbers that are not finite give such numbers.
 
 /// A ray that hit a primitive.
 template <class T>
@@ -24,7 +24,7 @@ template <class T>
 struct ContactOf {
   Vec3<T> outward;  ///< geometric normal, of unit length, or not finite
   T reach;          ///< the error of the point is relative to this
-  Mask<T> inner;    ///< on the sphere's inside, or on the plane's back
+  Mask<T> inner;    ///< on the inside of a sphere or capsule, or on the plane's back
 };
 
 template <class T>
@@ -47,6 +47,27 @@ BOULE_INLINE ContactOf<T> meet_plane(const ArrivalOf<T>& ray, const Vec3<T>& poi
   // The plane's own point may lie near the eye while the hit is far away: both count.
   return {normalize(normal), length(point - ray.org) + length(ray.point - ray.org),
           T(0.0) < dot(ray.dir, normal)};
+}
+
+/// The point of the segment a + s u, 0 <= s <= 1, that is nearest to `point`.
+template <class T>
+BOULE_INLINE Vec3<T> nearest_on_segment(const Vec3<T>& a, const Vec3<T>& u, const Vec3<T>& point) {
+  const T s = dot(point - a, u) / dot(u, u);
+  // NaN, as of a segment without length, becomes 0.
+  return a + u * select(T(0.0) < s, select(s < T(1.0), s, T(1.0)), T(0.0));
+}
+
+/// A capsule around the segment from a to a + u. A ray meets it where it meets the ball around the
+/// point of the segment that is nearest.
+template <class T>
+BOULE_INLINE ContactOf<T> meet_capsule(const ArrivalOf<T>& ray, const Vec3<T>& a, const Vec3<T>& u,
+                                       const T& radius) {
+  const Vec3<T> outward = ray.point - nearest_on_segment(a, u, ray.point);
+  const Vec3<T> start = ray.org - nearest_on_segment(a, u, ray.org);
+  const Mask<T> starts_inside = ray.leaves_it | (dot(start, start) - radius * radius <= T(0.0));
+  const Mask<T> goes_out = T(0.0) < dot(outward, ray.dir);
+  return {normalize(outward), length(a - ray.org) + length(u) + radius,
+          select(ray.is_from_origin, starts_inside, goes_out)};
 }
 
 /// A sphere, or a plane.

@@ -5,6 +5,7 @@
 
 #include "core/math/vec.h"
 #include "simd/abi/bvh.h"
+#include "simd/abi/capsules.h"
 
 namespace boule {
 
@@ -78,6 +79,7 @@ struct GeometryView {
   PlaneView planes;
   BvhView bvh;
   PartsView parts;
+  CapsuleView capsules;
 };
 
 }  // namespace boule

@@ -17,7 +17,8 @@ struct RayArrays {
   Array<float> dir_x, dir_y, dir_z;
   Array<float> tmin, tmax;
   Array<std::int32_t> source;  ///< id of the primitive the ray leaves, or no_primitive
-  Array<std::uint8_t> inside;  ///< 1: it leaves `source`, a sphere, on its inside, from the surface
+  Array<std::uint8_t>
+      inside;  ///< 1: it leaves `source`, not a plane, on its inside, from the surface
 };
 
 /// The indices of one ray in the arrays.
@@ -118,8 +119,8 @@ Ray get_ray(const Rays& rays, const RayPlaces& at) {
 inline Ray get_ray(const RayStream& rays, std::size_t i) { return get_ray(rays, rays.places(i)); }
 
 /// Nearest hits, one per ray: t in double, unrounded, and the primitive's id; inf and -1 for a
-/// miss. For a sphere, `slot` is its slot in the geometry; for other hits it is undefined. Arrays
-/// are as in RayStream.
+/// miss. For a sphere, `slot` is its slot in the geometry, for a capsule that among the capsules;
+/// for other hits it is undefined. Arrays are as in RayStream.
 struct HitStream {
   double* t;
   std::int32_t* id;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -11,6 +12,15 @@ namespace {
 Plane get_plane(const PlaneView& p, std::size_t i) {
   return {
       {p.point_x[i], p.point_y[i], p.point_z[i]}, {p.normal_x[i], p.normal_y[i], p.normal_z[i]}, 0};
+}
+
+Capsule get_capsule(const CapsuleView& view, std::size_t slot) {
+  const CapsuleBlock& block = view.blocks[slot / bvh_leaf_size];
+  const std::size_t k = slot % bvh_leaf_size;
+  return {{block.a_x[k], block.a_y[k], block.a_z[k]},
+          {block.b_x[k], block.b_y[k], block.b_z[k]},
+          block.radius[k],
+          0};
 }
 
 /// The sphere in a slot of a part, as placed in the scene.
@@ -30,6 +40,8 @@ struct Primitives {
   std::vector<Sphere> spheres;
   std::vector<std::uint32_t> slots;  ///< by the sphere's id
   std::vector<Plane> planes;
+  std::vector<Capsule> capsules;
+  std::vector<std::uint32_t> capsule_slots;  ///< by the capsule's id, less the first one's
 
   explicit Primitives(const GeometryView& view) {
     const SphereView& s = view.spheres;
@@ -44,6 +56,26 @@ struct Primitives {
     for (std::size_t part = 0; part < view.parts.size; ++part) add(view.parts.parts[part]);
     const PlaneView& p = view.planes;
     for (std::size_t i = 0; i < p.size; ++i) planes.push_back(get_plane(p, i));
+    add(view.capsules);
+  }
+
+  void add(const CapsuleView& view) {
+    for (std::uint32_t slot = 0; slot < view.slots; ++slot) {
+      if (view.id[slot] < 0) continue;
+      const auto place = static_cast<std::size_t>(view.id[slot] - view.first_id);
+      capsules.resize(std::max(capsules.size(), place + 1));
+      capsule_slots.resize(capsules.size());
+      capsules[place] = get_capsule(view, slot);
+      capsule_slots[place] = slot;
+    }
+  }
+
+  /// The slot of a primitive; undefined for a plane.
+  [[nodiscard]] std::uint32_t slot_of(std::int32_t id) const {
+    const std::size_t place = static_cast<std::uint32_t>(id);
+    if (place < slots.size()) return slots[place];
+    const std::size_t others = spheres.size() + planes.size();
+    return place - others < capsules.size() ? capsule_slots[place - others] : 0;
   }
 
   void add(const PartView& part) {
@@ -61,11 +93,10 @@ void closest_hit(const GeometryView& geometry, const RayStream& rays, const Quer
                  const HitStream& hits) {
   const Primitives all(geometry);
   for (std::size_t i = 0; i < rays.size; ++i) {
-    const Hit hit = reference::closest_hit(get_ray(rays, i), all.spheres, all.planes);
+    const Hit hit = reference::closest_hit(get_ray(rays, i), all.spheres, all.planes, all.capsules);
     hits.t[i] = hit.t;
     hits.id[i] = hit.id;
-    const auto id = static_cast<std::uint32_t>(hit.id);
-    if (id < all.slots.size()) hits.slot[i] = all.slots[id];
+    if (hit.id != no_primitive) hits.slot[i] = all.slot_of(hit.id);
   }
 }
 
@@ -73,7 +104,8 @@ void any_hit(const GeometryView& geometry, const RayStream& rays, const Query&,
              std::uint8_t* occluded) {
   const Primitives all(geometry);
   for (std::size_t i = 0; i < rays.size; ++i) {
-    occluded[i] = reference::any_hit(get_ray(rays, i), all.spheres, all.planes) ? 1 : 0;
+    const Ray ray = get_ray(rays, i);
+    occluded[i] = reference::any_hit(ray, all.spheres, all.planes, all.capsules) ? 1 : 0;
   }
 }
 
@@ -86,13 +118,12 @@ std::size_t find_chords(const GeometryView& geometry, const RayStream& rays, std
     std::int32_t id = 0;
     const auto add = [&](const auto& primitive) {
       const reference::Chord chord = reference::find_chord(ray, primitive, id == ray.source);
-      const auto sphere = static_cast<std::uint32_t>(id);
       if (overlaps(chord, ray, primitive)) {
         if (count < chords.capacity) {
           chords.enter[count] = chord.enter;
           chords.leave[count] = chord.leave;
           chords.id[count] = id;
-          chords.slot[count] = sphere < all.slots.size() ? all.slots[sphere] : 0;
+          chords.slot[count] = all.slot_of(id);
         }
         ++count;
       }
@@ -100,6 +131,7 @@ std::size_t find_chords(const GeometryView& geometry, const RayStream& rays, std
     };
     for (const Sphere& sphere : all.spheres) add(sphere);
     for (const Plane& plane : all.planes) add(plane);
+    for (const Capsule& capsule : all.capsules) add(capsule);
     if (count > chords.capacity) return i;
     ends[i] = count;
   }

@@ -126,6 +126,13 @@ Geometry::Geometry(std::shared_ptr<const Bvh> tree, std::size_t spheres,
   tree_ = std::move(tree);
 }
 
+void Geometry::add_capsules(const std::vector<Capsule>& capsules, const ParallelFor& parallel_for) {
+  if (capsules.empty()) return;
+  const auto first = static_cast<std::uint32_t>(sphere_count_ + plane_count_);
+  capsules_ =
+      std::make_shared<const CapsuleTree>(capsules, static_cast<std::int32_t>(first), parallel_for);
+}
+
 Sphere Geometry::sphere(std::uint32_t slot) const {
   if (parts_) return parts_->sphere(slot);
   const SphereBlock& block = bvh_.blocks[slot / bvh_leaf_size];
@@ -200,6 +207,7 @@ GeometryView Geometry::view() const {
     view.parts = parts_->view();
     view.bvh = parts_->bvh();
   }
+  if (capsules_) view.capsules = capsules_->view();
   return view;
 }
 

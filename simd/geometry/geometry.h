@@ -10,6 +10,7 @@
 #include "core/scene/primitive.h"
 #include "simd/abi/geometry.h"
 #include "simd/geometry/bvh_builder.h"
+#include "simd/geometry/capsules.h"
 #include "simd/geometry/parts.h"
 #include "simd/geometry/slot_materials.h"
 #include "simd/stream/aligned_array.h"
@@ -20,11 +21,11 @@ namespace boule {
 /// automatic scans up to tuning::most_scanned spheres.
 enum class Structure { automatic, scan, bvh };
 
-/// Spheres and planes laid out for the kernels, with the numbers of the conservative reject.
-/// Immutable once built. Takes any floats: rays miss a primitive that has NaN, infinity or no
-/// normal, and a negative radius counts by its absolute value. Precondition: at most max_primitives
-/// spheres and planes in all, which validate() checks. Throws std::bad_alloc, and the exceptions of
-/// `parallel_for`.
+/// Spheres, planes and capsules laid out for the kernels, with the numbers of the conservative
+/// reject. Immutable once built. Takes any floats: rays miss a primitive that has NaN, infinity or
+/// no normal, and a negative radius counts by its absolute value. Precondition: at most
+/// max_primitives spheres and planes in all, which validate() checks. Throws std::bad_alloc, and
+/// the exceptions of `parallel_for`.
 class Geometry {
  public:
   Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
@@ -44,6 +45,11 @@ class Geometry {
   /// without a plane's id is a hit of the sphere in its slot.
   Geometry(std::shared_ptr<const Bvh> tree, std::size_t spheres, const std::vector<Plane>& planes);
 
+  /// Adds capsules, whose ids follow those of the planes. Call it at most once. Precondition: at
+  /// most max_primitives in all. Throws std::bad_alloc, and the exceptions of `parallel_for`.
+  void add_capsules(const std::vector<Capsule>& capsules,
+                    const ParallelFor& parallel_for = serial_for);
+
   /// The view for the kernels; valid as long as this object lives and is not moved from.
   [[nodiscard]] GeometryView view() const;
 
@@ -55,6 +61,13 @@ class Geometry {
   [[nodiscard]] bool is_plane(const Hit& hit) const {
     return static_cast<std::uint32_t>(hit.id) - sphere_count_ < plane_count_;
   }
+  [[nodiscard]] std::size_t capsule_count() const { return capsules_ ? capsules_->size() : 0; }
+  /// Whether a hit is that of a capsule. Precondition: it is not a miss.
+  [[nodiscard]] bool is_capsule(const Hit& hit) const {
+    return static_cast<std::uint32_t>(hit.id) - sphere_count_ - plane_count_ < capsule_count();
+  }
+  /// The capsule in a slot of a hit, in the default material. Precondition: is_capsule().
+  [[nodiscard]] Capsule capsule(std::uint32_t slot) const { return capsules_->capsule(slot); }
   /// The materials of the spheres, by slot. Precondition: the geometry was built without parts.
   [[nodiscard]] const SlotMaterials& materials() const { return bvh_.materials; }
   /// The material of the sphere in a slot. Precondition: there is one.
@@ -79,7 +92,8 @@ class Geometry {
 
   std::shared_ptr<const Bvh> tree_;  ///< the tree behind the view bvh_; null: bvh_ owns its arrays
   Bvh bvh_;
-  std::shared_ptr<const GeometryParts> parts_;  ///< null: bvh_ has the spheres
+  std::shared_ptr<const GeometryParts> parts_;   ///< null: bvh_ has the spheres
+  std::shared_ptr<const CapsuleTree> capsules_;  ///< null: none
   float extent_;
   std::size_t sphere_count_, plane_count_;
   AlignedArray<float> center_x_, center_y_, center_z_, radius_, reject_squared_, reject_radius_;

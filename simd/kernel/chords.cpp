@@ -1,6 +1,7 @@
 // The chords of single rays: all that a ray passes through, not only the first.
 #include <bit>
 
+#include "simd/kernel/search/packet/capsule_search.h"
 #include "simd/kernel/search/packet/chord_list.h"
 #include "simd/kernel/search/packet/parts.h"
 #include "simd/kernel/search/packet/traverse.h"
@@ -26,6 +27,15 @@ class AllChords {
   static constexpr std::size_t chunk = tuning::any_chunk;
 
   [[nodiscard]] std::size_t count() const { return count_; }
+  /// Capsules before the end of the ray.
+  [[nodiscard]] BOULE_INLINE bool wants(const Real& low, unsigned out) const {
+    return (bits(far_ < low) | out) != all_lanes;
+  }
+  BOULE_INLINE void meet(const RayLanes& rays, const CapsuleLanes& capsule, const Bits& slot,
+                         unsigned /*out*/) {
+    const CapsuleRoots line = meet_lines(rays, capsule);
+    add(rays.exact, line.enter, line.leave, line.met, capsule.id, slot);
+  }
 
   /// Adds the chords of the lanes that are `met` and have a part between tmin and tmax.
   BOULE_INLINE void add(const ExactRays& rays, const Wide& enter, const Wide& leave,
@@ -156,8 +166,9 @@ BOULE_INLINE void scan_planes(const RayLanes& rays, Solver /*solver*/, const Pla
 }  // namespace
 
 template <class Geometry>
-std::size_t list_chords(const Geometry& geometry, const RayStream& rays, std::size_t first,
-                        const ChordStream& chords, std::size_t* ends) {
+std::size_t list_chords(const Geometry& geometry, const CapsuleView& capsules,
+                        const RayStream& rays, std::size_t first, const ChordStream& chords,
+                        std::size_t* ends) {
   RayLanes lanes;
   std::size_t count = 0;
   for (std::size_t i = first; i < rays.size; ++i) {
@@ -165,6 +176,7 @@ std::size_t list_chords(const Geometry& geometry, const RayStream& rays, std::si
     AllChords all(lanes, chords, count);
     if (any(lanes.exact.tmin < lanes.exact.tmax)) {
       search<OnePerLane>(lanes, Solver::robust, geometry, all);
+      if (capsules.slots != 0) search_capsules<OnePerLane>(lanes, capsules, all);
     }
     if (all.done()) return i;
     ends[i] = count = all.count();
@@ -172,9 +184,9 @@ std::size_t list_chords(const Geometry& geometry, const RayStream& rays, std::si
   return rays.size;
 }
 
-template std::size_t list_chords(const GeometryView&, const RayStream&, std::size_t,
-                                 const ChordStream&, std::size_t*);
-template std::size_t list_chords(const PartsGeometry&, const RayStream&, std::size_t,
-                                 const ChordStream&, std::size_t*);
+template std::size_t list_chords(const GeometryView&, const CapsuleView&, const RayStream&,
+                                 std::size_t, const ChordStream&, std::size_t*);
+template std::size_t list_chords(const PartsGeometry&, const CapsuleView&, const RayStream&,
+                                 std::size_t, const ChordStream&, std::size_t*);
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -7,11 +7,13 @@
 //              packets or in flight, whichever a trial finds fastest
 //   packets    everything else: a scan, the fast solver, a form that was asked for, or several
 //   parts
+// Capsules come last, in a pass of their own (capsules.cpp).
 #include "simd/abi/kernel_table.h"
 #include "simd/kernel/camera/primary_rays.h"
 #include "simd/kernel/search/bundle/bundled.h"
 #include "simd/kernel/search/flock/scattered_stream.h"
 #include "simd/kernel/search/leaf/primitive_access.h"
+#include "simd/kernel/search/packet/capsule_stream.h"
 #include "simd/kernel/search/packet/chord_list.h"
 #include "simd/kernel/search/packet/packet_stream.h"
 #include "simd/kernel/shading/direct_light.h"
@@ -86,6 +88,7 @@ void closest_hit(const GeometryView& geometry, const RayStream& rays, const Quer
   } else {
     closest_hit_in(geometry, rays, query, hits);
   }
+  if (geometry.capsules.slots != 0) closest_capsules(geometry.capsules, rays, query.form, hits);
 }
 
 void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
@@ -95,6 +98,7 @@ void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& q
   } else {
     any_hit_in(geometry, rays, query, occluded);
   }
+  if (geometry.capsules.slots != 0) any_capsules(geometry.capsules, rays, query.form, occluded);
 }
 
 // The functions of the table. The functions that these call are always inlined and have no address.
@@ -106,17 +110,17 @@ void camera_rays(const CameraView& camera, const SampleStream& samples, const Ra
 std::size_t chords_of_rays(const GeometryView& geometry, const RayStream& rays, std::size_t first,
                            const ChordStream& chords, std::size_t* ends) {
   if (geometry.parts.size != 0) {
-    return list_chords(PartsGeometry(geometry), rays, first, chords, ends);
+    return list_chords(PartsGeometry(geometry), geometry.capsules, rays, first, chords, ends);
   }
-  return list_chords(geometry, rays, first, chords, ends);
+  return list_chords(geometry, geometry.capsules, rays, first, chords, ends);
 }
 
 void surfaces_of_hits(const GeometryView& geometry, const RayStream& rays, const HitStream& hits,
                       const SurfaceStream& surfaces) {
   if (geometry.parts.size != 0) {
-    find_surfaces(PartsGeometry(geometry), rays, hits, surfaces);
+    find_surfaces(PartsGeometry(geometry), geometry.capsules, rays, hits, surfaces);
   } else {
-    find_surfaces(geometry, rays, hits, surfaces);
+    find_surfaces(geometry, geometry.capsules, rays, hits, surfaces);
   }
 }
 
@@ -133,9 +137,9 @@ void weighted_light(const WeightedLight& light, ColorSum* sums) { add_weighted_l
 void points_by_kind(const GeometryView& geometry, const PathRays& paths, LobePoints& matte,
                     LobePoints& glossy, LobePoints& clear) {
   if (geometry.parts.size != 0) {
-    find_points(PartsGeometry(geometry), paths, matte, glossy, clear);
+    find_points(PartsGeometry(geometry), geometry.capsules, paths, matte, glossy, clear);
   } else {
-    find_points(geometry, paths, matte, glossy, clear);
+    find_points(geometry, geometry.capsules, paths, matte, glossy, clear);
   }
 }
 

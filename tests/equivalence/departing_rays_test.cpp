@@ -72,7 +72,7 @@ TEST(DepartingRays, OutwardRaysMissTheirConvexSource) {
     const Primitives scene{from.spheres, from.planes};
     std::vector<Ray> rays;
     for (const Bounce& b : bounces(scene, from.eye, from.spread, 11)) {
-      const bool leaves_inside = b.surface.sphere && b.surface.inner;
+      const bool leaves_inside = b.surface.solid && b.surface.inner;
       const Side side = leaves_inside ? Side::beyond : Side::viewer;
       const Vec3d direction = leaves_inside ? -b.scattered : b.scattered;
       rays.push_back(leave(b.surface, side, direction));

@@ -19,7 +19,7 @@ BOULE_INLINE Bits side_of(const MetSurfaces& met) {
     return select(narrow(mask), Bits(side), Bits(std::uint32_t{0}));
   };
   const WideMask inner = met.met.inner;
-  return bit(inner & met.sphere, side_inside) | bit(met.sphere & ~inner, side_beyond) |
+  return bit(inner & met.solid, side_inside) | bit(met.solid & ~inner, side_beyond) |
          bit(inner, side_inner);
 }
 
@@ -52,8 +52,9 @@ BOULE_INLINE void add_points(const PathRays& paths, std::size_t first, const Met
 
 /// Geometry: GeometryView, or PartsGeometry.
 template <class Geometry>
-BOULE_INLINE void find_points(const Geometry& geometry, const PathRays& paths, LobePoints& matte,
-                              LobePoints& glossy, LobePoints& clear) {
+BOULE_INLINE void find_points(const Geometry& geometry, const CapsuleView& capsules,
+                              const PathRays& paths, LobePoints& matte, LobePoints& glossy,
+                              LobePoints& clear) {
   for (std::size_t first = 0; first < paths.rays.size; first += width) {
     const Bits kinds = load_integers(paths.kind + first);
     const auto of_kind = [&](LobeKind kind) {
@@ -62,7 +63,7 @@ BOULE_INLINE void find_points(const Geometry& geometry, const PathRays& paths, L
     const unsigned mattes = of_kind(LobeKind::matte), glossies = of_kind(LobeKind::glossy),
                    clears = of_kind(LobeKind::clear);
     if ((mattes | glossies | clears) == 0) continue;
-    const MetPrimitives primitives(geometry, paths.hits, first, paths.rays.size - first);
+    const MetPrimitives primitives(geometry, capsules, paths.hits, first, paths.rays.size - first);
     const MetSurfaces met = surfaces_of_packet(primitives, paths.rays, paths.hits, first);
     const Vec3<Wide> normal = normal_of(met, mattes | glossies | clears);
     if (mattes != 0) add_points<LobeKind::matte>(paths, first, met, normal, mattes, matte);

@@ -27,7 +27,7 @@ Surface seen_at(double angle, bool inner = false) {
   surface.cosine = std::cos(angle);
   surface.mirrored = {std::sin(angle), std::cos(angle), 0};
   surface.inner = inner;
-  surface.sphere = true;
+  surface.solid = true;
   return surface;
 }
 

@@ -1,0 +1,138 @@
+#pragma once
+
+#include "simd/abi/capsules.h"
+#include "simd/kernel/search/leaf/primitive_access.h"
+#include "simd/kernel/search/leaf/ray_lanes.h"
+#include "simd/kernel/search/leaf/sphere.h"
+
+/// Ray against capsule, lane by lane: a conservative reject in float, and the solver in double, as
+/// core/reference.cpp does it, bit for bit. docs/numerics.md derives the bound of the reject.
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Capsules in lanes: the same one in all, for a packet, or W, for a single ray.
+struct CapsuleLanes {
+  Vec3<Real> a, b;
+  Real radius;
+  Bits id;
+};
+
+/// The capsules of a block, step by step.
+template <class Access>
+struct BlockCapsules {
+  const CapsuleBlock& block;
+  const std::int32_t* ids;
+  std::size_t first_slot;
+
+  [[nodiscard]] BOULE_INLINE CapsuleLanes get(std::size_t step) const {
+    return {
+        {Access::get(block.a_x, step), Access::get(block.a_y, step), Access::get(block.a_z, step)},
+        {Access::get(block.b_x, step), Access::get(block.b_y, step), Access::get(block.b_z, step)},
+        Access::get(block.radius, step),
+        Access::get(ids, step)};
+  }
+  [[nodiscard]] BOULE_INLINE Bits slot(std::size_t step) const {
+    return Access::indices(first_slot, step);
+  }
+};
+
+/// A number in lanes moved to the range 0 .. 1; NaN becomes 0.
+template <class Number>
+BOULE_INLINE Number on_segment(const Number& s) {
+  const Number zero(0), one(1);
+  return select(zero < s, select(s < one, s, one), zero);
+}
+
+/// Lanes that certainly miss, and a lower bound of the t |dir| of hits in the others.
+struct CapsuleBounds {
+  RealMask out;
+  Real low;
+};
+
+/// The distance of a ray's line from the segment, in float. NaN passes.
+BOULE_INLINE CapsuleBounds bound_capsule(const FilterRays& rays, const CapsuleLanes& capsule) {
+  const Vec3<Real> f = capsule.a - rays.org, u = capsule.b - capsule.a;
+  const Vec3<Real>& d = rays.unit;
+  const auto across = [&](const Vec3<Real>& w, const Real& along) {
+    return Vec3<Real>{filter_fnma(along, d.x, w.x), filter_fnma(along, d.y, w.y),
+                      filter_fnma(along, d.z, w.z)};
+  };
+  const Real b = filter_dot(f, d), e = filter_dot(u, d);
+  const Vec3<Real> l = across(f, b), v = across(u, e);
+  const Real s = on_segment((Real(0.0F) - filter_dot(l, v)) / filter_dot(v, v));
+  const Vec3<Real> nearest{filter_fma(v.x, s, l.x), filter_fma(v.y, s, l.y),
+                           filter_fma(v.z, s, l.z)};
+  const Real error = filter_fma(Real(static_cast<float>(filter::capsule * filter::u)),
+                                sum_abs(f) + sum_abs(u), rays.origin_error);
+  const Real grown = grown_on_the_spot(capsule.radius) + error;
+  return {grown * grown < filter_dot(nearest, nearest), filter_min(b, b + e) - grown};
+}
+
+/// Where lines enter and leave capsules, in the lanes that are met.
+struct CapsuleRoots {
+  Wide enter, leave;
+  WideMask met;
+};
+
+/// The balls of a capsule, and the rays.
+struct Balls {
+  const ExactRays& rays;
+  Vec3<Wide> f, u;  ///< a - org, b - a
+  Wide rr;          ///< the radius, squared
+
+  /// The line in the ball at s of the segment, which it hits, perhaps but for rounding.
+  BOULE_INLINE void meet(const Wide& s, Wide& enter, Wide& leave) const {
+    const Wide zero(0.0);
+    const Vec3<Wide> g = f + u * s;
+    const Wide b = dot(g, rays.dir);
+    const Vec3<Wide> l = g - rays.dir * (b * rays.inverse_a);
+    const Wide found = rr - dot(l, l), discriminant = select(found < zero, zero, found);
+    const Wide q = b + copysign(sqrt(rays.a * discriminant), b);
+    const Wide from_a = q * rays.inverse_a;
+    const Wide from_cc = select(zero < discriminant, (dot(g, g) - rr) / q, from_a);
+    const WideMask ordered = from_cc < from_a;
+    enter = select(ordered, from_cc, from_a);
+    leave = select(ordered, from_a, from_cc);
+  }
+};
+
+/// Solver robust, in double, never fused. core/reference.cpp derives the formula.
+BOULE_INLINE CapsuleRoots meet_lines(const RayLanes& lanes, const CapsuleLanes& capsule) {
+  const ExactRays& rays = lanes.exact;
+  const Wide zero(0.0), r = widen(capsule.radius);
+  const Vec3<Wide> a = widen(capsule.a);
+  const Balls balls{rays, a - rays.org, widen(capsule.b) - a, r * r};
+  const auto& d = rays.dir;
+  const Wide along = dot(balls.u, d);
+  const Vec3<Wide> l = balls.f - d * (dot(balls.f, d) * rays.inverse_a);
+  const Vec3<Wide> v = balls.u - d * (along * rays.inverse_a);
+  const Wide vv = dot(v, v);
+  const WideMask slanted = zero < vv;
+  const Wide nearest = select(slanted, dot(l, v) * Wide(-1.0) / vv, zero);
+  const Vec3<Wide> closest = l + v * on_segment(nearest), off_axis = l + v * nearest;
+  const Wide found = balls.rr - dot(off_axis, off_axis);
+  const Wide h = sqrt(select(found < zero, zero, found));
+  const Wide size = sqrt(dot(balls.u, balls.u) * vv) * lanes.filter.length;
+  const Wide lean = select(slanted, h * along / size, copysign(Wide(no_hit), along));
+
+  CapsuleRoots roots;
+  Wide unused;
+  balls.meet(on_segment(nearest - lean), roots.enter, unused);
+  balls.meet(on_segment(nearest + lean), unused, roots.leave);
+  roots.met = zero <= balls.rr - dot(closest, closest);
+  if (rays.has_source) {
+    // A ray that leaves the capsule misses it, or has entered it before.
+    const WideMask leaves = widen(rays.source == capsule.id);
+    roots.enter = select(leaves, Wide(-no_hit), roots.enter);
+    roots.met = (leaves & rays.inside) | (~leaves & roots.met);
+  }
+  return roots;
+}
+
+BOULE_INLINE Roots solve_robust(const RayLanes& rays, const CapsuleLanes& capsule) {
+  const CapsuleRoots line = meet_lines(rays, capsule);
+  Roots roots = first_in_range(line.enter, line.leave, rays.exact);
+  roots.hit = roots.hit & line.met;
+  return roots;
+}
+
+}  // namespace boule::BOULE_KERNEL_ISA

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <cstdint>
+
+#include "simd/abi/geometry.h"
+#include "simd/abi/isa.h"
+
+namespace boule::BOULE_KERNEL_ISA {
+
+/// Streams of rays against capsules, once all other primitives have been searched: rays with a
+/// nearer hit, or with any, are done. Every solver decides as robust does. (capsules.cpp)
+void closest_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
+                      const HitStream& hits);
+void any_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
+                  std::uint8_t* occluded);
+
+}  // namespace boule::BOULE_KERNEL_ISA
