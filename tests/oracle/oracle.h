@@ -16,12 +16,13 @@ namespace boule::test {
 /// Where a line meets a primitive.
 struct OracleHit {
   BigFloat t;                     ///< the first root with tmin < t <= min(tmax, FLT_MAX)
-  std::optional<BigFloat> other;  ///< the sphere's other root, live or not
+  std::optional<BigFloat> other;  ///< the other root of a sphere or capsule, live or not
 };
 
 /// Nothing where the ray misses.
 std::optional<OracleHit> oracle_hit(const Ray& ray, const Sphere& sphere);
 std::optional<OracleHit> oracle_hit(const Ray& ray, const Plane& plane);
+std::optional<OracleHit> oracle_hit(const Ray& ray, const Capsule& capsule);
 
 /// The nearest of all, equal t: the lower id. Ids: spheres in order, then planes.
 std::int32_t oracle_closest(const Ray& ray, std::span<const Sphere> spheres,
@@ -30,5 +31,6 @@ std::int32_t oracle_closest(const Ray& ray, std::span<const Sphere> spheres,
 /// |o + t d - c| - r, or the signed distance from the plane, for any t.
 BigFloat oracle_residual(const Ray& ray, const Sphere& sphere, double t);
 BigFloat oracle_residual(const Ray& ray, const Plane& plane, double t);
+BigFloat oracle_residual(const Ray& ray, const Capsule& capsule, double t);
 
 }  // namespace boule::test
