@@ -23,4 +23,12 @@ Plane transformed(const Plane& plane, const Similarity& transform,
           material ? MaterialRef(*material) : plane.material};
 }
 
+Capsule transformed(const Capsule& capsule, const Similarity& transform,
+                    std::optional<std::uint32_t> material) {
+  return {vec_cast<float>(transform.apply(vec_cast<double>(capsule.a))),
+          vec_cast<float>(transform.apply(vec_cast<double>(capsule.b))),
+          static_cast<float>(transform.scale * static_cast<double>(capsule.radius)),
+          material ? MaterialRef(*material) : capsule.material};
+}
+
 }  // namespace boule

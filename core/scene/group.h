@@ -31,19 +31,21 @@ inline constexpr auto fields<Instance> =
                field("scale", &Instance::scale, rule::positive),
                field("material", &Instance::material, rule::material));
 
-/// Spheres, planes and other groups under a name, with a coordinate system of their own.
+/// Spheres, planes, capsules and other groups under a name, with a coordinate system of their own.
 struct Group {
   std::string name{};
   std::vector<Sphere> spheres{};
   std::vector<Plane> planes{};
   std::vector<Instance> instances{};
+  std::vector<Capsule> capsules{};
 };
 
 template <>
 inline constexpr auto fields<Group> = field_list("group", field("name", &Group::name),
                                                  field("sphere", &Group::spheres),
                                                  field("plane", &Group::planes),
-                                                 field("instance", &Group::instances));
+                                                 field("instance", &Group::instances),
+                                                 field("capsule", &Group::capsules));
 
 /// The first Problem of an instance by itself: a field against its rule.
 std::optional<Problem> find_problem(const Instance& instance);
@@ -51,12 +53,14 @@ std::optional<Problem> find_problem(const Instance& instance);
 /// The transformation of a valid instance. For an invalid one it may hold NaN and infinities.
 Similarity transform_of(const Instance& instance);
 
-/// A sphere or plane under a transformation, with another material if one is given. Every number is
+/// A primitive under a transformation, with another material if one is given. Every number is
 /// computed in double and rounded to float once. Numbers beyond float's range become infinite:
 /// find_problem() of the result finds them.
 Sphere transformed(const Sphere& sphere, const Similarity& transform,
                    std::optional<std::uint32_t> material);
 Plane transformed(const Plane& plane, const Similarity& transform,
                   std::optional<std::uint32_t> material);
+Capsule transformed(const Capsule& capsule, const Similarity& transform,
+                    std::optional<std::uint32_t> material);
 
 }  // namespace boule

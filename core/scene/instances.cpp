@@ -29,7 +29,7 @@ PrimitiveCount count_own(const Owner& owner) {
   return count;
 }
 
-/// Goes through all groups, each once and inner ones first. It counts the spheres and planes in
+/// Goes through all groups, each once and inner ones first. It counts the primitives in
 /// them, and finds groups that contain themselves or are nested too deep.
 class GroupSurvey {
  public:
@@ -44,7 +44,7 @@ class GroupSurvey {
   /// The first Problem of an instance in a group, if any.
   [[nodiscard]] const std::optional<InstanceProblem>& problem() const { return problem_; }
 
-  /// The spheres and planes in each group, those of its instances included.
+  /// The primitives in each group, those of its instances included.
   [[nodiscard]] const std::vector<PrimitiveCount>& counts() const { return counts_; }
 
  private:
@@ -276,7 +276,7 @@ std::optional<InstanceProblem> find_instance_problem(const Scene& scene) {
   for (std::size_t i = 0; i < scene.instances.size(); ++i) {
     if (stays_in_range(scene, survey.counts(), ranges, scene.instances[i])) continue;
     return InstanceProblem{
-        {}, i, {"scale", "takes a sphere or plane of the group out of a 32-bit float's range"}};
+        {}, i, {"scale", "takes a primitive of the group out of a 32-bit float's range"}};
   }
   const bool many = count_with(scene, survey.counts()).total() > max_primitives;
   if (!many || groups_to_share(scene)) return std::nullopt;
@@ -301,6 +301,12 @@ void visit_shown(const Scene& scene, const std::function<void(const Plane&)>& fu
   if (scene.instances.empty()) return;
   const GroupSurvey survey(scene);
   walk<Plane>(scene, survey.counts(), scene.instances, function);
+}
+
+void visit_shown(const Scene& scene, const std::function<void(const Capsule&)>& function) {
+  if (scene.instances.empty()) return;
+  const GroupSurvey survey(scene);
+  walk<Capsule>(scene, survey.counts(), scene.instances, function);
 }
 
 void visit_shown_groups(const Scene& scene,

@@ -25,22 +25,22 @@ struct InstanceProblem {
 
 /// The first Problem of a scene's instances: one of an instance by itself, an unknown group or
 /// material, a group that contains itself (the message names the cycle), too deep nesting, more
-/// primitives than a scene may have, or a sphere or plane that leaves the range of float. Groups
+/// primitives than a scene may have, or a primitive that leaves the range of float. Groups
 /// and materials are valid by themselves. Throws std::bad_alloc, as do all functions here.
 std::optional<InstanceProblem> find_instance_problem(const Scene& scene);
 
-/// As find_instance_problem(), but without the test for spheres and planes that leave the range of
-/// float. It is fast, because it skips the spheres and planes that the instances show.
+/// As find_instance_problem(), but without the test for primitives that leave the range of float.
+/// It is fast, because it skips the primitives that the instances show.
 std::optional<InstanceProblem> find_reference_problem(const Scene& scene);
 
-/// The largest number of spheres and planes of a scene, those of shared groups (groups_to_share())
+/// The largest number of primitives of a scene, those of shared groups (groups_to_share())
 /// included: ids have 32 bits, those from 2^31 on are negative as std::int32_t, and two numbers are
 /// no ids. One tree holds at most max_primitives.
 inline constexpr std::uint64_t max_shown_primitives = 4294967293;
 
 /// The numbers of primitives of a scene, those of its instances included.
 struct PrimitiveCount {
-  std::uint64_t spheres = 0, planes = 0;
+  std::uint64_t spheres = 0, planes = 0, capsules = 0;
   std::uint64_t placements = 0;  ///< number of times that groups with spheres of their own are
                                  ///< shown
 
@@ -54,12 +54,13 @@ struct PrimitiveCount {
 /// nothing.
 PrimitiveCount count_primitives(const Scene& scene);
 
-/// Calls the function with every sphere or plane that the instances of a valid scene show, in the
-/// order of their ids, which follow those of the scene's own. The order is depth first: instance by
-/// instance, and in each one the group's own spheres or planes before its instances. Exceptions of
-/// the function propagate.
+/// Calls the function with every primitive of a kind that the instances of a valid scene show, in
+/// the order of their ids, which follow those of the scene's own. The order is depth first:
+/// instance by instance, and in each one the group's own primitives before its instances.
+/// Exceptions of the function propagate.
 void visit_shown(const Scene& scene, const std::function<void(const Sphere&)>& function);
 void visit_shown(const Scene& scene, const std::function<void(const Plane&)>& function);
+void visit_shown(const Scene& scene, const std::function<void(const Capsule&)>& function);
 
 /// The spheres of a group, without those of its instances, at the place where an instance shows
 /// them.
@@ -92,9 +93,8 @@ inline constexpr double most_shared_coordinate = 1e17;
 /// the same ids, and removes those of its groups. Throws std::bad_alloc.
 void expand_all_but_spheres(Scene& scene);
 
-/// Replaces a valid scene's instances by the spheres and planes that they show, and removes its
-/// groups. The spheres and planes of a scene without instances stay in place. Throws
-/// std::bad_alloc.
+/// Replaces a valid scene's instances by the primitives that they show, and removes its groups. The
+/// primitives of a scene without instances stay in place. Throws std::bad_alloc.
 void expand_instances(Scene& scene);
 
 }  // namespace boule

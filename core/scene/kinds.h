@@ -32,11 +32,23 @@ struct PrimitiveKind<Plane> {
   }
 };
 
+template <>
+struct PrimitiveKind<Capsule> {
+  using Primitive = Capsule;
+  static constexpr const char* name = "capsule";
+  static constexpr const char* plural = "capsules";
+  template <class Owner>
+  static constexpr auto& of(Owner& owner) {
+    return owner.capsules;
+  }
+};
+
 /// Calls `visit` with the PrimitiveKind of every kind but spheres, in the order of their ids.
 /// Spheres, which may be many, are packed, shared and coloured in ways of their own.
 template <class Visit>
 constexpr void each_other_kind(const Visit& visit) {
   visit(PrimitiveKind<Plane>{});
+  visit(PrimitiveKind<Capsule>{});
 }
 
 /// The same for all kinds: spheres come first.

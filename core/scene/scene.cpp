@@ -69,6 +69,9 @@ class SectionCheck {
     return {};
   }
   static Status check(const std::string&, const TypeRule&, const std::vector<Plane>&) { return {}; }
+  static Status check(const std::string&, const TypeRule&, const std::vector<Capsule>&) {
+    return {};
+  }
   static Status check(const std::string&, const TypeRule&, const std::vector<Group>&) { return {}; }
   static Status check(const std::string&, const TypeRule&, const std::vector<Instance>&) {
     return {};
@@ -83,6 +86,7 @@ class SectionCheck {
 };
 
 bool is_valid(const Plane& plane) { return !find_problem(plane); }
+bool is_valid(const Capsule& capsule) { return !find_problem(capsule); }
 
 /// The index of the first invalid primitive, or the number of primitives.
 template <class Primitive>

@@ -106,7 +106,7 @@ inline constexpr auto fields<NamedMaterial> = field_list(
 
 /// Scene = Camera + Objects + Materials + Lights + Background (lecture "Scene"), as plain values.
 /// Primitive ids: spheres in order, then those of the instances (visit_shown()), then planes
-/// likewise. If there are packed spheres, they are the only ones.
+/// and capsules likewise. If there are packed spheres, they are the only ones.
 struct Scene {
   ImageSettings image{};
   RenderSettings render{};
@@ -122,6 +122,7 @@ struct Scene {
   std::vector<Light> lights{};
   std::vector<Sphere> spheres{};
   std::vector<Plane> planes{};
+  std::vector<Capsule> capsules{};
   std::vector<Group> groups{};  ///< shown by instances only
   std::vector<Instance> instances{};
   std::shared_ptr<const PackedSpheres> packed{};  ///< null: none
@@ -136,8 +137,8 @@ inline constexpr auto fields<Scene> = field_list(
     field("background.backdrop", &Scene::backdrop, rule::not_negative),
     field("material", &Scene::materials), field("light", &Scene::lights),
     field("sphere", &Scene::spheres), field("plane", &Scene::planes),
-    field("group", &Scene::groups), field("instance", &Scene::instances),
-    field("packed", &Scene::packed));
+    field("capsule", &Scene::capsules), field("group", &Scene::groups),
+    field("instance", &Scene::instances), field("packed", &Scene::packed));
 
 /// The first Problem of a scene, or std::nullopt. The Diagnostic's key is a dotted path as in scene
 /// files ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"). Renderer, Tracer and
@@ -145,9 +146,9 @@ inline constexpr auto fields<Scene> = field_list(
 /// enumerator is accepted and acts as a known one. Throws std::bad_alloc.
 Status validate(const Scene& scene);
 
-/// As validate(), but of the spheres, planes and instances it checks only the number of spheres and
-/// planes. For readers, which check each sphere and plane as they read it (there may be millions)
-/// and call find_instance_problem() for the instances.
+/// As validate(), but of the primitives and instances it checks only the number of primitives. For
+/// readers, which check each primitive as they read it (there may be millions) and call
+/// find_instance_problem() for the instances.
 Status validate_all_but_primitives(const Scene& scene);
 
 /// std::nullopt, or a Diagnostic with this key that gives the allowed whole numbers (WholeRule).

@@ -56,6 +56,14 @@ class Hasher {
     add(std::uint64_t{one_of.index()});
     std::visit([this](const auto& value) { this->add(value); }, one_of);
   }
+  /// A list without capsules adds nothing, so that scenes without any keep the hash that files
+  /// already hold.
+  void add(const std::vector<Capsule>& capsules) {
+    if (capsules.empty()) return;
+    add(capsule_mark);
+    add(std::uint64_t{capsules.size()});
+    for (const Capsule& one : capsules) add(one);
+  }
   template <class T>
   void add(const std::vector<T>& list) {
     add(std::uint64_t{list.size()});
@@ -63,6 +71,9 @@ class Hasher {
   }
 
   [[nodiscard]] std::uint64_t value() const { return mix64(state_); }
+
+  /// Comes before capsules: "capsule" as a number, which no count is.
+  static constexpr std::uint64_t capsule_mark = 0x656c7573706163;
 
  private:
   std::uint64_t state_ = 0;
@@ -105,6 +116,11 @@ class SceneHasher {
     hash_.add(digest_of(spheres, !shares_));
   }
   void add(const std::vector<Plane>& planes) { add_with_shown(planes); }
+  void add(const std::vector<Capsule>& capsules) {
+    if (count_.capsules == 0) return;
+    hash_.add(Hasher::capsule_mark);
+    add_with_shown(capsules);
+  }
   /// Shared groups are added as they are: their spheres, and all others in order.
   void add(const std::vector<Group>& groups) {
     if (!shares_) return;

@@ -95,9 +95,10 @@ class ByteWriter {
   template <HasFields T>
   void add(const T& value) {
     std::uint32_t count = 0;
-    each_field(value, [&count](const auto&, const auto&) { ++count; });
+    each_field(value, [&count](const auto&, const auto& member) { count += says(member) ? 1 : 0; });
     add(count);
     each_field(value, [this](const auto& field, const auto& member) {
+      if (!says(member)) return;
       ByteWriter own;
       own.add(member);
       this->add(field.key);
@@ -108,6 +109,13 @@ class ByteWriter {
   void add(const std::shared_ptr<const PackedSpheres>&) {}
 
  private:
+  /// Without capsules a scene has the bytes that versions without capsules give it and read.
+  static bool says(const std::vector<Capsule>& capsules) { return !capsules.empty(); }
+  template <class T>
+  static bool says(const T&) {
+    return true;
+  }
+
   std::string bytes_;
 };
 

@@ -143,7 +143,7 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
 
 /// Shows images of particles as instances of a group.
 void TomlObjects::add_images(TomlTable& table, ParticleSpheres particles) {
-  Group group{"images of " + table.path(), {}, {}, {}};
+  Group group{"images of " + table.path(), {}, {}, {}, {}};
   const CellImages images = particles.images();
   if (auto done = std::move(particles).append_first_image_to(group.spheres, table.origin(),
                                                              options_.parallel_for);
@@ -255,7 +255,7 @@ void TomlObjects::read_instances(std::vector<TomlTable>& tables, std::optional<s
 void TomlObjects::start_groups(const std::vector<TomlTable>& tables) {
   for (const TomlTable& table : tables) {
     group_ids_.emplace(table.name(), static_cast<std::uint32_t>(scene_.groups.size()));
-    scene_.groups.push_back({table.name(), {}, {}, {}});
+    scene_.groups.push_back({table.name(), {}, {}, {}, {}});
   }
 }
 

@@ -31,7 +31,7 @@ struct ObjectTables {
     std::optional<TomlParticles> particles{};  ///< once they are read
   };
   std::vector<Spheres> spheres;
-  std::vector<TomlTable> planes;
+  std::vector<TomlTable> planes, capsules;
   std::vector<TomlTable> instances;
 };
 
