@@ -49,6 +49,8 @@ struct PrimitiveCount {
     each_kind([&](auto kind) { sum += kind.of(*this); });
     return sum;
   }
+  /// Of those that a camera can frame.
+  [[nodiscard]] std::uint64_t finite() const { return spheres + capsules; }
 };
 /// Precondition of this function and of all below, unchecked: find_reference_problem() finds
 /// nothing.

@@ -11,6 +11,7 @@
 #include "core/base/chunks.h"
 #include "core/base/float_environment.h"
 #include "core/math/geometry.h"
+#include "core/scene/capsule_ends.h"
 #include "core/scene/group.h"
 #include "core/scene/instances.h"
 
@@ -83,7 +84,7 @@ class Moments {
   Symmetric<std::int64_t> second_{};
 };
 
-/// Adds all centres to what begins as `start`.
+/// Adds all centres, and all ends of capsules, to what begins as `start`.
 template <class Part>
 Part fold_centers(const Scene& scene, const ParallelFor& parallel_for, const Part& start) {
   const std::vector<Sphere>& own = scene.spheres;
@@ -99,6 +100,9 @@ Part fold_centers(const Scene& scene, const ParallelFor& parallel_for, const Par
     for (const Sphere& sphere : scene.groups[shown.group].spheres) {
       all.add(vec_cast<double>(transformed(sphere, shown.transform, shown.material).center));
     }
+  });
+  visit_end_spheres(scene, [&all](SphereRun ends) {
+    for (const Sphere& end : ends) all.add(vec_cast<double>(end.center));
   });
   return all;
 }

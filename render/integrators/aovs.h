@@ -20,7 +20,7 @@ struct Aovs {
   float depth = std::numeric_limits<float>::infinity();
   Vec3f normal{};    ///< geometric, unit length, towards the viewer, as for shading; miss: 0
   Vec3f position{};  ///< the hit's point, rounded to float; miss: 0
-  std::uint32_t id = no_aov_id;  ///< the primitive's: spheres in order, then planes
+  std::uint32_t id = no_aov_id;  ///< the primitive's: spheres in order, then planes, then capsules
   /// The fraction of light that the surface sends on: the diffuse colour plus the weights of the
   /// reflected and the refracted ray, at most 1. Highlights, ambient light and emission are left
   /// out. Miss: 0.

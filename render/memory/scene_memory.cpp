@@ -14,10 +14,12 @@ Status check_shared_memory(const Scene& scene, const std::vector<ShownGroup>& gr
   std::uint64_t spheres = scene.spheres.size();
   for (const Group& group : scene.groups) spheres += group.spheres.size();
   constexpr std::uint64_t bytes_of_part = 512;
-  return check_memory(bytes_of_tree(spheres) + groups.size() * bytes_of_part,
-                      std::to_string(spheres) + " spheres, in groups that are shown " +
-                          std::to_string(groups.size()) + " times, need",
-                      "instance");
+  const std::uint64_t capsules = count_primitives(scene).capsules;
+  return check_memory(
+      bytes_of_tree(spheres) + bytes_of_capsule_tree(capsules) + groups.size() * bytes_of_part,
+      std::to_string(spheres) + " spheres, in groups that are shown " +
+          std::to_string(groups.size()) + " times, need",
+      "instance");
 }
 
 }  // namespace
@@ -32,11 +34,12 @@ Status check_scene_memory(const Scene& scene) {
     others += (kind.of(count) - kind.of(scene).size()) * sizeof(typename decltype(kind)::Primitive);
   });
   // The scene's own spheres are in memory already.
-  const std::uint64_t bytes =
-      bytes_of_tree(count.spheres) + others - bytes_of_spheres(scene.spheres.size());
+  const std::uint64_t bytes = bytes_of_tree(count.spheres) + bytes_of_capsule_tree(count.capsules) +
+                              others - bytes_of_spheres(scene.spheres.size());
   const bool instances = !scene.instances.empty();
+  const char* const kinds = count.capsules > 0 ? " primitives" : " spheres and planes";
   return check_memory(bytes,
-                      std::to_string(count.total()) + " spheres and planes" +
+                      std::to_string(count.total()) + kinds +
                           (instances ? ", with those of the instances, need" : " need"),
                       instances ? "instance" : "");
 }

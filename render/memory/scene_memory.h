@@ -17,6 +17,12 @@ constexpr std::uint64_t bytes_of_tree(std::uint64_t spheres) {
   return spheres * measured;
 }
 
+/// The same of capsules, which stay beside their tree while it is built.
+constexpr std::uint64_t bytes_of_capsule_tree(std::uint64_t capsules) {
+  constexpr std::uint64_t measured = 72;  // per capsule, of millions of them
+  return capsules * measured;
+}
+
 /// An error if preparing a scene, with all that its instances show, needs more memory than there
 /// is. It is quick. Takes any scene; no error for one that validate() refuses. Throws
 /// std::bad_alloc, as the next one does.

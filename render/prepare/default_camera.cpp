@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/math/geometry.h"
+#include "core/scene/capsule_ends.h"
 #include "core/scene/instances.h"
 #include "core/scene/principal_pose.h"
 #include "render/prepare/extreme_spheres.h"
@@ -52,19 +53,29 @@ View view_of(const Scene& scene, const CameraFit& fit, const ParallelFor& parall
 /// The same as for a list of spheres, but by those only that the camera depends on.
 Camera camera_of_packed(const Scene& scene, int width, int height) {
   const PackedSpheres& packed = *scene.packed;
-  const View view = default_view(
-      scene.fit, extreme_spheres(packed, measures_of_view(scene, scene.fit)), scene.planes);
+  const auto extremes = [&](const std::vector<SphereMeasure>& measures) {
+    std::vector<Sphere> spheres = extreme_spheres(packed, measures);
+    visit_end_spheres(
+        scene, [&](SphereRun ends) { spheres.insert(spheres.end(), ends.begin(), ends.end()); });
+    return spheres;
+  };
+  const View view =
+      default_view(scene.fit, extremes(measures_of_view(scene, scene.fit)), scene.planes);
   CameraFitter fitter(scene.fit, view, width, height);
-  fitter.add(extreme_spheres(packed, fitter.measures()));
+  fitter.add(extremes(fitter.measures()));
   return fitter.camera();
 }
 
 }  // namespace
 
 SphereBounds bounds_of(const Scene& scene) {
-  if (scene.packed && scene.packed->count > 0) return {scene.packed->low, scene.packed->high};
   constexpr double inf = std::numeric_limits<double>::infinity();
   Vec3d low{inf, inf, inf}, high{-inf, -inf, -inf};
+  const bool packed = scene.packed && scene.packed->count > 0;
+  if (packed) {
+    low = scene.packed->low;
+    high = scene.packed->high;
+  }
   const auto add = [&low, &high](SphereRun spheres) {
     for (const Sphere& s : spheres) {
       const Vec3d c = vec_cast<double>(s.center);
@@ -73,6 +84,10 @@ SphereBounds bounds_of(const Scene& scene) {
       high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r), std::max(high.z, c.z + r)};
     }
   };
+  if (packed) {
+    visit_end_spheres(scene, add);
+    return {low, high};
+  }
   std::vector<SphereMeasure> measures;
   for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) {
     measures.push_back({axis, 1});
@@ -93,7 +108,7 @@ void add_spheres(const Scene& scene, CameraFitter& fitter, const ParallelFor& pa
 
 Camera default_camera(const Scene& scene, int width, int height, const ParallelFor& parallel_for) {
   if (scene.packed && scene.packed->count > 0) return camera_of_packed(scene, width, height);
-  if (count_primitives(scene).spheres == 0) return camera_without_spheres(scene, width, height);
+  if (count_primitives(scene).finite() == 0) return camera_without_spheres(scene, width, height);
   const CameraFit fit = settled_fit(scene, parallel_for);
   CameraFitter fitter(fit, view_of(scene, fit, parallel_for), width, height);
   add_spheres(scene, fitter, parallel_for);

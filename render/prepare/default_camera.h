@@ -7,17 +7,17 @@
 
 namespace boule {
 
-/// The box around the spheres of a scene, those of its instances among them. Around none, `low` is
-/// infinity and `high` is -infinity.
+/// The box around the spheres and capsules of a scene, those of its instances among them. Around
+/// none, `low` is infinity and `high` is -infinity.
 struct SphereBounds {
   Vec3d low, high;
 };
 SphereBounds bounds_of(const Scene& scene);
 
-/// The camera that a scene without one is given: one fitted to its spheres as `scene.fit` says, for
-/// pictures of `width` x `height` pixels (CameraFitter). If there are planes only, it is a pinhole
-/// that looks at the first one; if there is nothing, it looks along -z. Coordinates near the end of
-/// float's range can overflow here: find_problem() of the camera tells.
+/// The camera that a scene without one is given: one fitted to its spheres and capsules as
+/// `scene.fit` says, for pictures of `width` x `height` pixels (CameraFitter). If there are planes
+/// only, it is a pinhole that looks at the first one; if there is nothing, it looks along -z.
+/// Coordinates near the end of float's range can overflow here: find_problem() of the camera tells.
 Camera default_camera(const Scene& scene, int width, int height,
                       const ParallelFor& parallel_for = serial_for);
 

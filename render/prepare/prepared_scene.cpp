@@ -53,6 +53,13 @@ bool has_own_colors(const Scene& scene, const ParallelFor& parallel_for) {
                      [&](const Group& group) { return any_colored(group.spheres); });
 }
 
+std::vector<MaterialRef> materials_of(const std::vector<Capsule>& capsules) {
+  std::vector<MaterialRef> materials;
+  materials.reserve(capsules.size());
+  for (const Capsule& capsule : capsules) materials.push_back(capsule.material);
+  return materials;
+}
+
 /// The spheres that give light, for path tracing.
 std::vector<Sphere> emissive_spheres(const Scene& scene) {
   if (scene.packed) return scene.packed->emissive;
@@ -150,8 +157,9 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   const bool own_colors = has_own_colors(scene, parallel_for);
   std::vector<Sphere> emissive = emissive_spheres(scene);
   const std::vector<Sphere> sample = sample_spheres(scene, groups);
-  PreparedScene prepared{.geometry = geometry_of(scene, groups, scene.planes, parallel_for),
+  PreparedScene prepared{.geometry = geometry_of(scene, groups, parallel_for),
                          .planes = std::move(scene.planes),  // only now: the geometry has read them
+                         .of_capsules = materials_of(scene.capsules),
                          .materials = flatten_all(scene, method),
                          .plain_materials = plain_materials(scene),
                          .has_own_colors = own_colors,
@@ -165,6 +173,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
                          .environment = std::move(environment),
                          .distortion = std::move(scene.distortion).value_or(DistortionMap{}),
                          .notes = std::move(notes)};
+  prepared.capsule_slots = prepared.geometry.view().capsules.slots;
   if (auto done = reframe(prepared, *scene.camera, width, height); !done) return done.error();
   for (std::string& note : view_notes(prepared.camera_view, width, height, sample))
     prepared.notes.push_back(std::move(note));

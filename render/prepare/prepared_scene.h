@@ -23,6 +23,8 @@ namespace boule {
 struct PreparedScene {
   Geometry geometry;                      ///< the primitives for rays
   std::vector<Plane> planes;              ///< by id less that of the first plane, for shading
+  std::vector<MaterialRef> of_capsules;   ///< by id less that of the first capsule
+  std::size_t capsule_slots = 0;          ///< hits of capsules have lower slots
   std::vector<FlatMaterial> materials;    ///< by MaterialRef::index()
   std::vector<Material> plain_materials;  ///< by MaterialRef::index(): the base of materials in
                                           ///< other colours
@@ -48,14 +50,23 @@ struct PreparedScene {
 
   /// Whether a hit is that of a sphere. Precondition of this and of the functions below: it is a
   /// hit of this geometry, not a miss.
-  [[nodiscard]] bool is_sphere(const Hit& hit) const { return !geometry.is_plane(hit); }
+  [[nodiscard]] bool is_sphere(const Hit& hit) const {
+    return !geometry.is_plane(hit) && !is_capsule(hit);
+  }
+  /// Ids may be wrong where a packed file supplies the slots of spheres.
+  [[nodiscard]] bool is_capsule(const Hit& hit) const {
+    return geometry.is_capsule(hit) && hit.slot < capsule_slots;
+  }
   /// The plane that was hit. Precondition: the hit is that of a plane.
   [[nodiscard]] const Plane& plane(const Hit& hit) const {
     return planes[static_cast<std::uint32_t>(hit.id) - geometry.sphere_count()];
   }
   /// The material reference of the primitive that was hit.
   [[nodiscard]] MaterialRef material_ref(const Hit& hit) const {
-    return is_sphere(hit) ? geometry.material(hit.slot) : plane(hit).material;
+    if (is_sphere(hit)) return geometry.material(hit.slot);
+    if (geometry.is_plane(hit)) return plane(hit).material;
+    return of_capsules[static_cast<std::uint32_t>(hit.id) - geometry.sphere_count() -
+                       geometry.plane_count()];
   }
 
   /// A material in a colour of its own. Precondition: the reference has one.
@@ -73,14 +84,16 @@ struct PreparedScene {
 
 /// The surface that a ray hit in the scene.
 inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
-  return scene.is_sphere(hit) ? find_surface(scene.geometry.sphere(hit.slot), ray, hit)
-                              : find_surface(scene.plane(hit), ray, hit);
+  const Geometry& geometry = scene.geometry;
+  if (scene.is_sphere(hit)) return find_surface(geometry.sphere(hit.slot), ray, hit);
+  if (geometry.is_plane(hit)) return find_surface(scene.plane(hit), ray, hit);
+  return find_surface(geometry.capsule(hit.slot), ray, hit);
 }
 
 /// Prepares a scene for a picture of `width` x `height` pixels. Takes any values; an error if the
 /// scene is invalid (validate()), if a side is outside 1 .. 65535, or if the scene has no camera
-/// and cannot be fitted with one. Passes on exceptions of `parallel_for`. Instances become spheres
-/// and planes, or parts of the geometry (share_or_expand()). The geometry takes the place of the
+/// and cannot be fitted with one. Passes on exceptions of `parallel_for`. Instances become
+/// primitives, or parts of the geometry (share_or_expand()). The geometry takes the place of the
 /// scene's spheres: move the scene here if you no longer need it. scene.image and scene.render are
 /// ignored.
 Result<PreparedScene> prepare(Scene scene, int width, int height,

@@ -20,13 +20,12 @@ Geometry geometry_of(const PackedSpheres& packed, const std::vector<Plane>& plan
   return Geometry::of_parts(std::move(parts), planes);
 }
 
-}  // namespace
-
-Geometry geometry_of(Scene& scene, const std::optional<std::vector<ShownGroup>>& groups,
-                     const std::vector<Plane>& planes, const ParallelFor& parallel_for) {
-  if (scene.packed) return geometry_of(*scene.packed, planes);
+/// All but the capsules.
+Geometry without_capsules(Scene& scene, const std::optional<std::vector<ShownGroup>>& groups,
+                          const ParallelFor& parallel_for) {
+  if (scene.packed) return geometry_of(*scene.packed, scene.planes);
   if (!groups) {
-    return {std::move(scene.spheres), planes, Structure::automatic, parallel_for};
+    return {std::move(scene.spheres), scene.planes, Structure::automatic, parallel_for};
   }
   const auto tree_over = [&](std::vector<Sphere>& spheres) {
     return std::make_shared<const Geometry>(std::move(spheres), std::vector<Plane>(),
@@ -41,7 +40,16 @@ Geometry geometry_of(Scene& scene, const std::optional<std::vector<ShownGroup>>&
     if (!tree) tree = tree_over(scene.groups[shown.group].spheres);
     parts.push_back({tree, shown.transform, shown.material});
   }
-  return Geometry::of_parts(std::move(parts), planes);
+  return Geometry::of_parts(std::move(parts), scene.planes);
+}
+
+}  // namespace
+
+Geometry geometry_of(Scene& scene, const std::optional<std::vector<ShownGroup>>& groups,
+                     const ParallelFor& parallel_for) {
+  Geometry geometry = without_capsules(scene, groups, parallel_for);
+  geometry.add_capsules(scene.capsules, parallel_for);
+  return geometry;
 }
 
 }  // namespace boule

@@ -10,10 +10,10 @@
 
 namespace boule {
 
-/// The geometry of a valid scene, whose spheres are taken, and of these planes. `groups`: what
+/// The geometry of a valid scene, whose spheres are taken. `groups`: what
 /// share_or_expand() returned for the scene; each group is one tree, however often it is shown.
 /// Throws std::bad_alloc, and what `parallel_for` throws.
 Geometry geometry_of(Scene& scene, const std::optional<std::vector<ShownGroup>>& groups,
-                     const std::vector<Plane>& planes, const ParallelFor& parallel_for);
+                     const ParallelFor& parallel_for);
 
 }  // namespace boule

@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "core/scene/capsule_ends.h"
+
 namespace boule {
 namespace {
 
@@ -132,6 +134,7 @@ SphereRuns ShownExtremes::runs(std::vector<SphereMeasure> measures) const {
     });
     if (!scene_.spheres.empty()) function(scene_.spheres);
     for (const std::vector<Found>& of_one : found) visit(of_one, function);
+    visit_end_spheres(scene_, function);
   };
 }
 

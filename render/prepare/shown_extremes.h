@@ -21,7 +21,8 @@ class ShownExtremes {
 
   /// Goes through all spheres of the scene itself, and through some of those that its instances
   /// show. Among them are, for each of the measures, those for which it is least once the spheres
-  /// are rounded to float. A sphere may come several times. This object must outlive it.
+  /// are rounded to float. A sphere may come several times. Capsules come as the spheres around
+  /// their ends, all of them. This object must outlive it.
   [[nodiscard]] SphereRuns runs(std::vector<SphereMeasure> measures) const;
 
  private:

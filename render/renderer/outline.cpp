@@ -128,8 +128,11 @@ void OutlineWorker::trace(int x0, int y0) {
 const std::vector<int>& OutlineWorker::disc_between(const Hit& a, const Hit& b) const {
   const Hit& nearer = b.t < a.t ? b : a;
   const PreparedScene& scene = setup_.scene;
-  if (nearer.id == no_primitive || !scene.is_sphere(nearer)) return discs_.back();
-  const auto radius = static_cast<double>(scene.geometry.sphere(nearer.slot).radius);
+  const Geometry& geometry = scene.geometry;
+  if (nearer.id == no_primitive || geometry.is_plane(nearer)) return discs_.back();
+  const auto radius =
+      static_cast<double>(scene.is_capsule(nearer) ? geometry.capsule(nearer.slot).radius
+                                                   : geometry.sphere(nearer.slot).radius);
   const double pixel = length(step_org_ + step_dir_ * nearer.t);
   const double most = outline_share * radius / pixel;
   if (!(most < static_cast<double>(width_))) return discs_.back();

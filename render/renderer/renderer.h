@@ -42,7 +42,7 @@ class Renderer {
   /// or the options are invalid (validate()), if this computer lacks the ISA, or if there is too
   /// little memory.
   static Result<Renderer> create(const Scene& scene, const RenderOptions& options);
-  /// The same without a copy of the spheres and planes.
+  /// The same without a copy of the primitives.
   static Result<Renderer> create(Scene&& scene, const RenderOptions& options);
 
   /// A renderer of a scene that was prepared for `options`: their size, method and transparency.

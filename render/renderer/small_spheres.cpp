@@ -7,6 +7,7 @@
 #include "core/base/chunks.h"
 #include "core/optics/camera_view.h"
 #include "render/prepare/projection.h"
+#include "simd/geometry/bvh_builder.h"
 #include "simd/geometry/part_placement.h"
 
 namespace boule {
@@ -38,27 +39,106 @@ void visit_spheres(const GeometryView& view, const ParallelFor& parallel_for, co
     visit_part(view.parts.parts[i], view.parts.parts[i].slots);
 }
 
+/// Calls visit(capsule) for each capsule, in parallel.
+template <class Visit>
+void visit_capsules(const Geometry& geometry, const ParallelFor& parallel_for, const Visit& visit) {
+  const CapsuleView view = geometry.view().capsules;
+  in_chunks(parallel_for, view.slots, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      if (view.id[slot] != empty_slot) visit(geometry.capsule(static_cast<std::uint32_t>(slot)));
+    }
+  });
+}
+
 }  // namespace
+
+/// Marks pixels, on several threads at once.
+class SmallSpheres::Marker {
+ public:
+  Marker(SmallSpheres& to, const CameraView& camera, int width)
+      : to_(to),
+        projection_(camera, width),
+        keeps_lines_(camera.kind != CameraKind::fisheye),
+        rect_(to.rect_) {}
+
+  void add(const Sphere& sphere) {
+    const auto disc = projection_.of(sphere);
+    if (disc && is_small(*disc)) mark(*disc, 0);
+  }
+  void add(const Capsule& capsule) {
+    constexpr int most_halvings = 40;
+    add_part(vec_cast<double>(capsule.a), vec_cast<double>(capsule.b), capsule.radius,
+             most_halvings);
+  }
+  [[nodiscard]] bool any() const { return any_; }
+
+ private:
+  static bool is_small(const Disc& disc) { return disc.radius <= largest_radius; }
+
+  /// A part of a capsule, between two points of its segment. It is halved until the discs around
+  /// them are near each other, or no disc between them is small or in the picture.
+  void add_part(const Vec3d& a, const Vec3d& b, float radius, int halvings) {
+    constexpr double near = 0.5, between = 0.36;  // so far are pixels from a disc, at most
+    const auto disc_at = [&](const Vec3d& point) {
+      return projection_.of({vec_cast<float>(point), radius, {}});
+    };
+    const auto first = disc_at(a), last = disc_at(b);
+    if (!first && !last) return;
+    // Nothing between two points is farther away than both.
+    if (first && last && !is_small(*first) && !is_small(*last)) return;
+    if (first && last && keeps_lines_ && are_beside(*first, *last)) return;
+    const bool are_near = first && last && std::fabs(first->x - last->x) <= near &&
+                          std::fabs(first->y - last->y) <= near;
+    if (are_near || halvings == 0) {
+      for (const auto& disc : {first, last}) {
+        if (disc && is_small(*disc)) mark(*disc, between);
+      }
+      return;
+    }
+    const Vec3d middle = a * 0.5 + b * 0.5;
+    add_part(a, middle, radius, halvings - 1);
+    add_part(middle, b, radius, halvings - 1);
+  }
+
+  /// Whether the line between two discs is outside the picture, on one side of it.
+  [[nodiscard]] bool are_beside(const Disc& one, const Disc& other) const {
+    const double most = 2 + std::max(one.reach, other.reach);
+    const auto are_out = [most](double p, double q, int low, int high) {
+      return std::max(p, q) < low - most || std::min(p, q) > high + most;
+    };
+    return are_out(one.x, other.x, rect_.x0, rect_.x1) ||
+           are_out(one.y, other.y, rect_.y0, rect_.y1);
+  }
+
+  /// The pixels that a disc touches, or comes so near to.
+  void mark(const Disc& disc, double distance) {
+    const double reach = disc.reach + distance;
+    const int x1 = pixel_at(disc.x + reach + 1, rect_.x0, rect_.x1),
+              y1 = pixel_at(disc.y + reach + 1, rect_.y0, rect_.y1);
+    for (int y = pixel_at(disc.y - reach, rect_.y0, rect_.y1); y < y1; ++y) {
+      for (int x = pixel_at(disc.x - reach, rect_.x0, rect_.x1); x < x1; ++x) {
+        any_.store(true, std::memory_order_relaxed);
+        std::atomic_ref(to_.marks_[rect_.index(x, y)]).store(1, std::memory_order_relaxed);
+      }
+    }
+  }
+
+  SmallSpheres& to_;
+  Projection projection_;
+  bool keeps_lines_;  ///< the camera shows lines as lines
+  PixelRect rect_;
+  std::atomic<bool> any_ = false;
+};
 
 SmallSpheres::SmallSpheres(const Geometry& geometry, const CameraView& camera, int width,
                            const PixelRect& rect, const ParallelFor& parallel_for)
     : rect_(rect), marks_(static_cast<std::size_t>(rect.area())) {
-  const Projection projection(camera, width);
-  std::atomic<bool> any = false;
-  visit_spheres(geometry.view(), parallel_for, [&](const Sphere& sphere) {
-    const auto disc = projection.of(sphere);
-    if (!disc || !(disc->radius <= largest_radius)) return;
-    const int x1 = pixel_at(disc->x + disc->reach + 1, rect.x0, rect.x1),
-              y1 = pixel_at(disc->y + disc->reach + 1, rect.y0, rect.y1);
-    for (int y = pixel_at(disc->y - disc->reach, rect.y0, rect.y1); y < y1; ++y) {
-      for (int x = pixel_at(disc->x - disc->reach, rect.x0, rect.x1); x < x1; ++x) {
-        any.store(true, std::memory_order_relaxed);
-        std::atomic_ref(marks_[rect.index(x, y)]).store(1, std::memory_order_relaxed);
-      }
-    }
-  });
-  if (camera.distortion.st != nullptr) everywhere_ = any;
-  if (!any || everywhere_) marks_ = {};
+  Marker marker(*this, camera, width);
+  const auto add = [&marker](const auto& primitive) { marker.add(primitive); };
+  visit_spheres(geometry.view(), parallel_for, add);
+  visit_capsules(geometry, parallel_for, add);
+  if (camera.distortion.st != nullptr) everywhere_ = marker.any();
+  if (!marker.any() || everywhere_) marks_ = {};
 }
 
 }  // namespace boule

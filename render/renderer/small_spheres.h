@@ -13,9 +13,9 @@ namespace boule {
 
 struct CameraView;
 
-/// The pixels of a picture in which spheres may hide from the rays through the pixels' centres:
-/// those that a sphere touches which is at most 1.5 pixels wide. A wider one covers the centre of
-/// a pixel wherever it lies.
+/// The pixels of a picture in which spheres and capsules may hide from the rays through the pixels'
+/// centres: those that a sphere touches, or a part of a capsule, which is at most 1.5 pixels wide.
+/// A wider one covers the centre of a pixel wherever it lies.
 class SmallSpheres {
  public:
   SmallSpheres() = default;
@@ -30,6 +30,8 @@ class SmallSpheres {
   }
 
  private:
+  class Marker;
+
   PixelRect rect_;
   bool everywhere_ = false;          ///< the camera's map of distortions is not inverted
   std::vector<std::uint8_t> marks_;  ///< by pixel; empty: none

@@ -48,6 +48,11 @@ bool enters(const TraceTarget& target, const Ray& ray, const Hit& hit) {
   const bool leaves = hit.id == ray.source;
   if (geometry.is_plane(hit))
     return is_nearer_to_enter(hit.t, reference::find_chord(ray, geometry.plane(hit.id), leaves));
+  // Ids may be wrong where a packed file supplies the slots of spheres.
+  if (geometry.is_capsule(hit) && hit.slot < geometry.view().capsules.slots) {
+    const Capsule capsule = geometry.capsule(hit.slot);
+    return is_nearer_to_enter(hit.t, reference::find_chord(ray, capsule, leaves));
+  }
   const Sphere sphere = geometry.sphere(hit.slot);
   if (!leaves && target.solver != Solver::fast) return enters(sphere, ray, hit.t);
   return is_nearer_to_enter(hit.t, reference::find_chord(ray, sphere, leaves));

@@ -28,8 +28,7 @@ Tracer::Tracer(Scene scene, const std::optional<std::vector<ShownGroup>>& groups
                const TraceOptions& options, const KernelTable& kernels)
     : options_(options),
       kernels_(&kernels),
-      geometry_(
-          geometry_of(scene, groups, scene.planes, Scheduler(options.threads).parallel_for())),
+      geometry_(geometry_of(scene, groups, Scheduler(options.threads).parallel_for())),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
 
@@ -173,7 +172,7 @@ TraceWorker& Tracer::worker(unsigned index) {
 }
 
 std::size_t Tracer::primitives() const {
-  return geometry_.sphere_count() + geometry_.plane_count();
+  return geometry_.sphere_count() + geometry_.plane_count() + geometry_.capsule_count();
 }
 
 TraceStatistics Tracer::statistics() const {

@@ -54,7 +54,7 @@ class Tracer {
   /// error if the scene is invalid (validate()), if this computer lacks the ISA, or if there is too
   /// little memory.
   static Result<Tracer> create(const Scene& scene, const TraceOptions& options = {});
-  /// The same without a copy of the spheres and planes.
+  /// The same without a copy of the primitives.
   static Result<Tracer> create(Scene&& scene, const TraceOptions& options = {});
   Tracer(Tracer&& other) noexcept;
   Tracer& operator=(Tracer&& other) noexcept;
@@ -77,22 +77,24 @@ class Tracer {
   Status any_of_columns(const RayColumns& rays, std::span<std::uint8_t> met);
 
   /// All crossings of each ray with tmin < t <= tmax, or the first `limit` of them: two of a
-  /// sphere, one where a line touches it, one of a plane. Decisions are exact, whatever the solver.
-  /// Of more than sixteen exact copies of a sphere in a packed scene, two count. Errors are as for
-  /// closest_of_columns(); too little memory for the results is one with the memory that they need.
+  /// sphere or capsule, one where a line touches it, one of a plane. Decisions are exact, whatever
+  /// the solver. Of more than sixteen exact copies of a sphere in a packed scene, two count. Errors
+  /// are as for closest_of_columns(); too little memory for the results is one with the memory that
+  /// they need.
   Result<Crossings> all_hits(const RayView& rays, std::optional<std::size_t> limit = {});
 
   /// Sets counts[k] to the number of crossings of rays[k].
   Status count(const RayView& rays, std::span<std::int64_t> counts);
 
-  /// Sets lengths[k] to the length of rays[k] inside the union of all spheres, between tmin and
-  /// tmax, in units of t: where spheres overlap it counts once.
+  /// Sets lengths[k] to the length of rays[k] inside the union of all spheres and capsules,
+  /// between tmin and tmax, in units of t: where they overlap it counts once.
   Status chord(const RayView& rays, std::span<double> lengths);
 
-  /// The length of each ray inside each sphere, between tmin and tmax, where it is above 0.
+  /// The length of each ray inside each sphere and capsule, between tmin and tmax, where it is
+  /// above 0.
   Result<SphereChords> chords(const RayView& rays);
 
-  /// The number of ids: of spheres and planes.
+  /// The number of ids: of spheres, planes and capsules.
   [[nodiscard]] std::size_t primitives() const;
   [[nodiscard]] TraceStatistics statistics() const;
 
@@ -112,9 +114,7 @@ class Tracer {
   Result<RayLists<Item>> list_items(const RayView& rays, const std::string& name,
                                     const MakeList& make_list);
   Status run_blocks(const RayView& rays, const Body& body);
-  [[nodiscard]] bool is_sphere(std::int32_t id) const {
-    return static_cast<std::uint32_t>(id) < geometry_.sphere_count();
-  }
+  [[nodiscard]] bool is_solid(std::int32_t id) const { return !geometry_.is_plane({0, id}); }
   /// Rays per stream: enough to fill packets, and few enough to stay in the cache.
   static constexpr std::size_t rays_of_stream = 1024;
   static std::size_t blocks_of(std::size_t rays);

@@ -104,8 +104,7 @@ void add_crossings(std::span<const RayChord> chords, const RayInterval& interval
   if (to.size() - before > limit) to.resize(before + limit);
 }
 
-/// The part of a sphere's chord that counts. A ray that leaves the sphere on its inside begins at
-/// 0.
+/// The part of a solid's chord that counts. A ray that leaves the solid on its inside begins at 0.
 Span clip(const RayChord& chord, const RayInterval& interval, const Ray& ray) {
   const double enter = chord.id == ray.source ? 0 : chord.enter;
   return {std::max(enter, interval.tmin), std::min(chord.leave, interval.end())};
@@ -228,7 +227,7 @@ Status Tracer::chord(const RayView& rays, std::span<double> lengths) {
       const Ray ray = worker.ray(k);
       spans.clear();
       for (const RayChord& chord : chords) {
-        if (is_sphere(chord.id)) spans.push_back(clip(chord, worker.interval(k), ray));
+        if (is_solid(chord.id)) spans.push_back(clip(chord, worker.interval(k), ray));
       }
       lengths[first + k] = union_length(spans, room);
     });
@@ -243,7 +242,7 @@ Result<SphereChords> Tracer::chords(const RayView& rays) {
     const Ray ray = worker.ray(k);
     for (const RayChord& chord : chords) {
       const double length = clip(chord, worker.interval(k), ray).length();
-      if (is_sphere(chord.id) && length > 0) items.push_back({chord.id, length});
+      if (is_solid(chord.id) && length > 0) items.push_back({chord.id, length});
     }
     std::sort(items.begin() + before, items.end(),
               [](const ChordLength& a, const ChordLength& b) { return a.id < b.id; });

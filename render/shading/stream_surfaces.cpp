@@ -47,7 +47,7 @@ Surface StreamSurfaces::get(std::size_t k) const {
           reaches_[k],
           id,
           inner_[k] != 0,
-          static_cast<std::uint32_t>(id) < static_cast<std::uint32_t>(geometry_.planes.first_id)};
+          !is_plane(id)};
 }
 
 LitStream StreamSurfaces::lit(const std::uint8_t* lit, std::size_t size) {

@@ -31,8 +31,11 @@ class StreamSurfaces {
 
   /// The surfaces of the last block, by its rays.
   SurfaceStream of_block();
-  /// Ids below it are those of spheres.
-  [[nodiscard]] std::int32_t first_plane() const { return geometry_.planes.first_id; }
+  /// Ids below it are those of primitives with an inside, and where there are capsules all ids are:
+  /// whether a ray leaves a plane on its inside tells the solver nothing.
+  [[nodiscard]] std::int32_t first_plane() const {
+    return geometry_.capsules.slots > 0 ? no_primitive : geometry_.planes.first_id;
+  }
 
   /// The surface that ray k of the block hit. Precondition: it hit one.
   [[nodiscard]] Surface get(std::size_t k) const;
@@ -46,6 +49,12 @@ class StreamSurfaces {
   LitStream lit(const std::uint8_t* lit, std::size_t size);
 
  private:
+  [[nodiscard]] bool is_plane(std::int32_t id) const {
+    const PlaneView& planes = geometry_.planes;
+    const auto first = static_cast<std::uint32_t>(planes.first_id);
+    return static_cast<std::uint32_t>(id) - first < planes.size;
+  }
+
   const KernelTable& kernels_;
   GeometryView geometry_;
   const std::int32_t* ids_ = nullptr;  ///< by ray, from the last find()

@@ -39,7 +39,7 @@ void SeriesSurvey::add(int frame, const LoadedScene& loaded,
   for (const ParticleFacts& facts : loaded.particles) choices_[facts.table].add(facts.own);
   if (!first_shown_ && shows_particles(loaded)) first_shown_ = frame;
   const Scene& scene = loaded.scene;
-  if (count_primitives(scene).spheres == 0) return;
+  if (count_primitives(scene).finite() == 0) return;
   if (!fitter_) {
     const auto [width, height] = size_.of(scene.image);
     fitter_.emplace(scene.fit, view_of(scene), width, height);

@@ -6,6 +6,7 @@
 
 #include "core/math/geometry.h"
 #include "core/math/similarity.h"
+#include "core/scene/capsule_ends.h"
 #include "core/scene/instances.h"
 #include "core/scene/principal_pose.h"
 #include "render/prepare/camera_fitter.h"
@@ -43,9 +44,12 @@ class TurningSpheres {
   Vec3d point_, axis_;
 };
 
+/// All spheres, and those around the ends of capsules.
 std::vector<Sphere> shown_spheres(const Scene& scene) {
   std::vector<Sphere> spheres = scene.spheres;
   visit_shown(scene, [&](const Sphere& sphere) { spheres.push_back(sphere); });
+  visit_end_spheres(
+      scene, [&](SphereRun ends) { spheres.insert(spheres.end(), ends.begin(), ends.end()); });
   return spheres;
 }
 
@@ -68,7 +72,7 @@ Result<Turntable> Turntable::of(const Scene& scene, const Size& size,
   Scene settled;
   settled.spheres = shown_spheres(scene);
   if (settled.spheres.empty())
-    return Diagnostic::about("--turn", "the scene has no spheres to turn");
+    return Diagnostic::about("--turn", "the scene has no spheres or capsules to turn");
   settled.planes = scene.planes;
   settled.fit = settled_fit(scene, parallel_for);
   const View view = view_of(settled, parallel_for);

@@ -36,10 +36,12 @@ Json hit_json(const PickedPixel& pixel, const RecordedRay& primary) {
   const Vec3d& origin = pixel.loaded.origin;
   const Surface surface = find_surface(scene, primary.ray, primary.hit);
   const auto id = static_cast<std::uint32_t>(primary.hit.id);
-  const bool is_sphere = scene.is_sphere(primary.hit);
+  const bool is_sphere = scene.is_sphere(primary.hit), is_capsule = scene.is_capsule(primary.hit);
   Json json = {
       {"primitive", id},
-      {"kind", is_sphere ? "sphere" : "plane"},
+      {"kind", is_sphere    ? "sphere"
+               : is_capsule ? "capsule"
+                            : "plane"},
       {"material", material_name(pixel, primary.hit)},
       {"t", number(primary.hit.t)},
       {"depth", number(dot(surface.point - scene.camera_view.eye, scene.camera_view.forward))},
@@ -49,6 +51,11 @@ Json hit_json(const PickedPixel& pixel, const RecordedRay& primary) {
     const Sphere sphere = scene.geometry.sphere(primary.hit.slot);
     json["center"] = vector(vec_cast<double>(sphere.center) + origin);
     json["radius"] = number(double{sphere.radius});
+  } else if (is_capsule) {
+    const Capsule capsule = scene.geometry.capsule(primary.hit.slot);
+    json["a"] = vector(vec_cast<double>(capsule.a) + origin);
+    json["b"] = vector(vec_cast<double>(capsule.b) + origin);
+    json["radius"] = number(double{capsule.radius});
   }
   return json;
 }

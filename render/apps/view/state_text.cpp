@@ -203,6 +203,7 @@ SceneFigures figures_of(const LoadedScene& loaded) {
   const PrimitiveCount count = count_primitives(scene);
   SceneFigures figures{.spheres = static_cast<std::size_t>(count.spheres),
                        .planes = static_cast<std::size_t>(count.planes),
+                       .capsules = static_cast<std::size_t>(count.capsules),
                        .center = {}};
   const SphereBounds box = bounds_of(scene);
   if (!(box.low.x <= box.high.x)) return figures;
@@ -223,6 +224,7 @@ std::string state_text(const ShownState& shown) {
          {"kind", shown.facts.kind},
          {"spheres", shown.figures.spheres},
          {"planes", shown.figures.planes},
+         {"capsules", shown.figures.capsules},
          {"lights", scene.lights.size()},
          {"notes", shown.notes}}},
        {"camera", camera_json(shown.wish.camera, shown.loaded.origin)},

@@ -12,9 +12,10 @@
 /// The server's messages as JSON: docs/view_protocol.md.
 namespace boule::view {
 
-/// What is in a scene, that of its instances among it, and a sphere around its spheres.
+/// What is in a scene, that of its instances among it, and a sphere around its spheres
+/// and capsules.
 struct SceneFigures {
-  std::size_t spheres = 0, planes = 0;
+  std::size_t spheres = 0, planes = 0, capsules = 0;
   Vec3d center;
   double radius = 1;
 };

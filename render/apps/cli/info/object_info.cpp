@@ -70,7 +70,7 @@ Json groups_info(const LoadedScene& loaded) {
 }
 
 Json bounds_info(const Scene& scene, const Vec3d& origin) {
-  if (count_primitives(scene).spheres == 0) return nullptr;
+  if (count_primitives(scene).finite() == 0) return nullptr;
   const auto [low, high] = bounds_of(scene);
   return {{"min", shown(vec_cast<float>(low), origin)},
           {"max", shown(vec_cast<float>(high), origin)}};

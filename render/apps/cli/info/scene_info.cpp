@@ -17,7 +17,7 @@
 namespace boule::cli {
 namespace {
 
-/// Each with the number of spheres and planes that are made of it.
+/// Each with the number of primitives that are made of it.
 Json materials_info(const Scene& scene) {
   std::vector<std::uint64_t> objects(scene.materials.size());
   const auto count = [&objects](const std::vector<Sphere>& spheres, std::uint64_t times) {
@@ -69,7 +69,7 @@ std::string inline_text(const Json& value) {
 bool is_list(const std::string& key) {
   for (const char* list :
        {"data_files", "lights", "materials", "notes", "warnings", "first_spheres", "first_planes",
-        "group_list", "first_instances", "species", "columns", "sections"}) {
+        "first_capsules", "group_list", "first_instances", "species", "columns", "sections"}) {
     if (key == list) return true;
   }
   return false;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
+#include <type_traits>
 
 #include "core/scene/instances.h"
 #include "render/apps/cli/process/interrupt.h"
@@ -85,7 +86,11 @@ void RunReport::loaded(const LoadedScene& loaded, double seconds) const {
   if (count.total() == 0 && !has_particles)
     note_once("boule: note: no objects in the scene: nothing to be hit");
   std::string objects;
-  each_kind([&](auto kind) { objects += counted(kind.of(count), kind.name) + ", "; });
+  each_kind([&](auto kind) {
+    using Primitive = typename decltype(kind)::Primitive;
+    if (std::is_same_v<Primitive, Capsule> && count.capsules == 0) return;
+    objects += counted(kind.of(count), kind.name) + ", ";
+  });
   detail(fmt::format("{}: {}{}, {}, read in {:.3f} s", job_.scene, objects,
                      counted(scene.lights.size(), "light"),
                      counted(scene.materials.size(), "material"), seconds));

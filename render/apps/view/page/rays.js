@@ -78,6 +78,8 @@ export class Rays {
       facts.push(['Normal', vectorText(hit.normal, 4)]);
       facts.push(['Point', vectorText(hit.position, 6)]);
       if (hit.kind === 'sphere') facts.push(['Centre', vectorText(hit.center, 6)], ['Radius', short(hit.radius, 6)]);
+      if (hit.kind === 'capsule')
+        facts.push(['Ends', `${vectorText(hit.a, 6)}, ${vectorText(hit.b, 6)}`], ['Radius', short(hit.radius, 6)]);
     } else {
       facts.push(['Primitive', 'none: the background']);
     }

@@ -98,6 +98,7 @@ function showScene({scene, version}) {
   document.title = `${name} – boule view`;
   const facts = [counted(scene.spheres, 'sphere')];
   if (scene.planes) facts.push(counted(scene.planes, 'plane'));
+  if (scene.capsules) facts.push(counted(scene.capsules, 'capsule'));
   if (scene.lights) facts.push(counted(scene.lights, 'light'));
   byId('scene-facts').textContent = facts.join(' · ');
   byId('version').textContent = `boule ${version}`;
