@@ -7,6 +7,7 @@
 #include "core/base/version.h"
 #include "render/apps/job/option_values.h"
 #include "render/apps/python/call.h"
+#include "render/apps/python/capsule_arrays.h"
 #include "render/apps/python/data.h"
 #include "render/apps/python/errors.h"
 #include "render/apps/python/particle_arrays.h"
@@ -40,6 +41,7 @@ PYBIND11_MODULE(_core, module) {
   bind_data(module);
   bind_particle_arrays(module);
   bind_sphere_arrays(module);
+  bind_capsule_arrays(module);
   bind_tracing(module);
   bind_picture(module);
   bind_rendering(module);

@@ -37,9 +37,12 @@ class SceneValues {
   [[nodiscard]] py::dict background() const;
   [[nodiscard]] py::list materials() const;
   [[nodiscard]] py::list lights() const;
-  [[nodiscard]] py::object spheres(std::vector<Sphere>&& spheres, const Vec3d& base) const;
+  template <class Arrays, class Primitive>
+  [[nodiscard]] py::object many(std::vector<Primitive>&& primitives, const Vec3d& base) const;
+  [[nodiscard]] py::list planes(const std::vector<Plane>& planes, const FieldValues& values) const;
   template <class Owner>
-  void add_others(py::dict& to, const Owner& owner, const FieldValues& values) const;
+  void add_objects(py::dict& to, Owner& owner, const Vec3d& origin,
+                   const FieldValues& values) const;
   [[nodiscard]] py::list instances(const std::vector<Instance>& all, const Vec3d& origin) const;
   [[nodiscard]] py::list groups();
   [[nodiscard]] py::object origin() const;
@@ -136,29 +139,36 @@ py::list SceneValues::lights() const {
   return all;
 }
 
-py::object SceneValues::spheres(std::vector<Sphere>&& spheres, const Vec3d& base) const {
-  if (spheres.empty()) return py::none();
-  SphereArrays arrays;
+template <class Arrays, class Primitive>
+py::object SceneValues::many(std::vector<Primitive>&& primitives, const Vec3d& base) const {
+  if (primitives.empty()) return py::none();
+  Arrays arrays;
   arrays.base = base;
   arrays.materials = names_;
-  arrays.has_colors = std::any_of(spheres.begin(), spheres.end(),
-                                  [](const Sphere& sphere) { return sphere.material.has_color(); });
-  arrays.spheres = std::move(spheres);
+  arrays.has_colors = std::any_of(primitives.begin(), primitives.end(),
+                                  [](const Primitive& one) { return one.material.has_color(); });
+  PrimitiveKind<Primitive>::of(arrays) = std::move(primitives);
   return py::cast(data_of(std::move(arrays)));
 }
 
+py::list SceneValues::planes(const std::vector<Plane>& planes, const FieldValues& values) const {
+  py::list all;
+  for (const Plane& plane : planes) {
+    py::dict one = values.of(plane);
+    one["material"] = names_[plane.material.index()];
+    if (plane.material.has_color()) one["color"] = hex_text(plane.material.color());
+    all.append(one);
+  }
+  return all;
+}
+
+/// All objects but instances, of a scene or a group.
 template <class Owner>
-void SceneValues::add_others(py::dict& to, const Owner& owner, const FieldValues& values) const {
-  each_other_kind([&](auto kind) {
-    py::list all;
-    for (const auto& primitive : kind.of(owner)) {
-      py::dict one = values.of(primitive);
-      one["material"] = names_[primitive.material.index()];
-      if (primitive.material.has_color()) one["color"] = hex_text(primitive.material.color());
-      all.append(one);
-    }
-    to[kind.plural] = all;
-  });
+void SceneValues::add_objects(py::dict& to, Owner& owner, const Vec3d& origin,
+                              const FieldValues& values) const {
+  to["spheres"] = many<SphereArrays>(std::move(owner.spheres), origin);
+  to["planes"] = planes(owner.planes, values);
+  to["capsules"] = many<CapsuleArrays>(std::move(owner.capsules), origin);
 }
 
 py::list SceneValues::instances(const std::vector<Instance>& all, const Vec3d& origin) const {
@@ -178,8 +188,7 @@ py::list SceneValues::groups() {
     Group& group = loaded_.scene.groups[i];
     const Vec3d origin = loaded_.origin_of(i);
     py::dict one;
-    one["spheres"] = spheres(std::move(group.spheres), origin);
-    add_others(one, group, FieldValues(origin));
+    add_objects(one, group, origin, FieldValues(origin));
     one["instances"] = instances(group.instances, origin);
     all.append(py::make_tuple(group.name, one));
   }
@@ -203,10 +212,9 @@ py::dict SceneValues::all() {
   values["backdrop"] = scene.backdrop ? to_python(*scene.backdrop) : py::object(py::none());
   values["materials"] = materials();
   values["lights"] = lights();
-  add_others(values, scene, world_);
   values["instances"] = instances(scene.instances, loaded_.origin);
   values["groups"] = groups();
-  values["spheres"] = spheres(std::move(scene.spheres), loaded_.origin);
+  add_objects(values, scene, loaded_.origin, world_);
   values["origin"] = origin();
   values["notes"] = loaded_.notes;
   values["warnings"] = loaded_.warnings;

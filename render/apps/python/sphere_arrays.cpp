@@ -12,15 +12,9 @@
 
 #include "core/math/geometry.h"
 #include "core/scene/number_text.h"
-#include "render/apps/python/call.h"
-#include "render/apps/python/choices.h"
-#include "render/apps/python/errors.h"
+#include "render/apps/python/array_colors.h"
 #include "render/apps/python/presence.h"
-#include "render/apps/python/values.h"
 #include "render/files/file/float32.h"
-#include "render/files/particles/percentiles.h"
-#include "render/files/scene_file/npy/npy_colors.h"
-#include "render/files/scene_file/toml/toml_color_map.h"
 #include "render/memory/available_memory.h"
 #include "render/memory/scene_memory.h"
 
@@ -98,107 +92,15 @@ Status check_room(const SphereInput& input) {
   return check_memory(bytes_of_spheres(count) + exact, std::to_string(count) + " spheres need");
 }
 
-Status color_spheres(const Numbers& colors, ColorSpace space, SphereArrays& arrays) {
-  if (colors.is_bytes() && space == ColorSpace::linear) {
-    return Diagnostic::about("colors",
-                             "are uint8, which are sRGB codes: linear colours must be floats");
-  }
-  for (std::size_t i = 0; i < arrays.spheres.size(); ++i) {
-    std::array<std::uint8_t, 3> codes{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double component = colors.at(i, k);
-      const auto code = color_code(colors.is_bytes() ? component / 255 : component, space);
-      if (!code) {
-        return Diagnostic::about(
-            "colors",
-            "row " + std::to_string(i) + ": must be from 0 to 1, is " + number_text(component));
-      }
-      codes[k] = *code;
-    }
-    arrays.spheres[i].material = MaterialRef::colored(0, {codes[0], codes[1], codes[2]});
-  }
-  arrays.has_colors = true;
-  return {};
-}
-
-/// Colours by a map of one number for each; the range that was chosen.
-Result<std::array<double, 2>> map_spheres(const Numbers& scalar, const ColorMapKeys& keys,
-                                          SphereArrays& arrays, const ParallelFor& parallel_for) {
-  std::vector<double> numbers(scalar.rows());
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    numbers[i] = scalar.at(i);
-    if (std::isfinite(numbers[i])) continue;
-    return Diagnostic::about(
-        "scalar", "row " + std::to_string(i) + ": must be finite, is " + number_text(numbers[i]));
-  }
-  std::array<double, 2> range{0, 1};
-  if (keys.range) range = *keys.range;
-  if (!keys.range && !numbers.empty()) {
-    range = percentiles(ParticleNumbers(numbers.data(), 1), numbers.size(), parallel_for);
-  }
-  const RangePlace place(range);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    arrays.spheres[i].material = MaterialRef::colored(0, keys.map.color(place(numbers[i])));
-  }
-  arrays.has_colors = true;
-  return range;
-}
-
-ColorMapKeys read_map(const py::object& map, const py::object& range) {
-  py::dict keys;
-  keys["map"] = map;
-  keys["range"] = range;
-  TreeBuilder builder;
-  const TomlMembers members = builder.members(keys, "");
-  FirstError error("");
-  TomlTable table(members, {}, "", error);
-  ColorMapKeys read = read_color_map(table);
-  check(error.status());
-  return read;
-}
-
-void refuse_together(const py::object& colors, const py::object& scalar, const py::object& map,
-                     const py::object& range) {
-  if (!colors.is_none() && !scalar.is_none()) throw_error("scalar", "cannot stand beside 'colors'");
-  if (scalar.is_none() && !(map.is_none() && range.is_none())) {
-    throw_error(map.is_none() ? "range" : "map", "goes with 'scalar', which is missing");
-  }
-}
-
 /// Spheres and their colours for a scene, and the range of their colour map, or None.
 py::tuple spheres_of(const py::object& centers, const py::object& radii, const py::object& colors,
                      const std::string& color_space, const py::object& scalar,
                      const py::object& map, const py::object& range) {
-  refuse_together(colors, scalar, map, range);
+  ArrayColors::refuse_together(colors, scalar, map, range);
   const SphereInput input(centers, radii);
-  const std::size_t count = input.centers.rows();
-  std::optional<Numbers> rgb, numbers;
-  if (!colors.is_none()) {
-    rgb.emplace(colors, "colors", Numbers::Shape{.rows = count, .columns = 3, .takes_bytes = true});
-  }
-  if (!scalar.is_none()) numbers.emplace(scalar, "scalar", Numbers::Shape{.rows = count});
-  const auto space = choose<ColorSpace>(color_space, "color_space");
-  const ColorMapKeys keys = read_map(map, range);
-  struct Made {
-    std::shared_ptr<SphereArrays> arrays;
-    std::optional<std::array<double, 2>> range;
-  };
-  auto made = take(interruptible([=](Call& call) -> Result<Made> {
-    const ParallelFor parallel_for = call.parallel_for();
-    auto arrays = make_spheres(input, parallel_for);
-    if (!arrays) return arrays.error();
-    Made all{std::make_shared<SphereArrays>(std::move(arrays).value()), {}};
-    if (rgb) {
-      if (auto done = color_spheres(*rgb, space, *all.arrays); !done) return done.error();
-    }
-    if (numbers) {
-      auto chosen = map_spheres(*numbers, keys, *all.arrays, parallel_for);
-      if (!chosen) return chosen.error();
-      all.range = chosen.value();
-    }
-    return all;
-  }));
-  return py::make_tuple(Data{std::shared_ptr<const SphereArrays>(made.arrays)}, made.range);
+  const ArrayColors own(colors, color_space, scalar, map, range, input.centers.rows());
+  return of_arrays<SphereArrays>(
+      own, [input](const ParallelFor& parallel_for) { return make_spheres(input, parallel_for); });
 }
 
 }  // namespace

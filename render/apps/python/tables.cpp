@@ -112,6 +112,7 @@ void read_table(const std::string& kind, const TomlMembers& members, FirstError&
   if (kind == "light") return static_cast<void>(read_light(table));
   if (kind == "sphere") return read_object<Sphere>(table);
   if (kind == "plane") return read_object<Plane>(table);
+  if (kind == "capsule") return read_object<Capsule>(table);
   if (kind == "instance") return read_object<Instance>(table);
   if (kind == "particles") return read_particle_table(table);
   if (kind == "map") {
@@ -206,6 +207,7 @@ py::dict list_fields() {
   all["light"] = kinds<Light>();
   all["sphere"] = kinds<Sphere>();
   all["plane"] = kinds<Plane>();
+  all["capsule"] = kinds<Capsule>();
   all["instance"] = kinds<Instance>();
   py::list scene;
   each_field<Scene>([&](const auto& field) {

@@ -131,6 +131,7 @@ std::string TreeBuilder::add(const Data& data) {
   if (const auto* particles = std::get_if<1>(&data.held)) data_.particles.emplace(name, *particles);
   if (const auto* picture = std::get_if<2>(&data.held)) data_.pictures.emplace(name, *picture);
   if (const auto* lens = std::get_if<3>(&data.held)) data_.lenses.emplace(name, *lens);
+  if (const auto* capsules = std::get_if<4>(&data.held)) data_.capsules.emplace(name, *capsules);
   return name;
 }
 

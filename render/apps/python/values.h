@@ -17,7 +17,8 @@ namespace boule::python {
 /// Something large that a scene has in memory where a TOML file names a file.
 struct Data {
   std::variant<std::shared_ptr<const SphereArrays>, std::shared_ptr<ParticleFile>,
-               std::shared_ptr<const Image>, std::shared_ptr<const std::vector<LensSurface>>>
+               std::shared_ptr<const Image>, std::shared_ptr<const std::vector<LensSurface>>,
+               std::shared_ptr<const CapsuleArrays>>
       held;
 };
 

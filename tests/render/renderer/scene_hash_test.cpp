@@ -95,6 +95,10 @@ const std::function<void(Scene&)> changes[] = {
     [](Scene& s) { s.planes[0].normal.y = 1; },
     [](Scene& s) { s.planes[0].material = 0; },
     [](Scene& s) { s.planes.clear(); },
+    [](Scene& s) { s.capsules = {{}}; },
+    [](Scene& s) {
+      s.capsules = {{}, {}};
+    },
 };
 
 TEST(SceneHash, ChangesWithEveryValueThatShows) {
@@ -157,6 +161,7 @@ TEST(SceneHash, ChangesWithEveryListedField) {
   EXPECT_EQ(count_hashes(Background{}, [](Scene& s, const auto& b) { s.background = b; }), 7U);
   EXPECT_EQ(count_hashes<Sphere>([](Scene& s, const Sphere& sphere) { s.spheres = {sphere}; }), 3U);
   EXPECT_EQ(count_hashes<Plane>([](Scene& s, const Plane& plane) { s.planes = {plane}; }), 3U);
+  EXPECT_EQ(count_hashes<Capsule>([](Scene& s, const Capsule& one) { s.capsules = {one}; }), 4U);
 }
 
 TEST(SceneHash, LeavesOutNamesAndSettings) {

@@ -1,4 +1,4 @@
-"""Boule renders scenes of spheres and planes: exact hits, the same bits on every machine.
+"""Boule renders scenes of spheres, planes and capsules: exact hits, the same bits on every machine.
 
     import boule
     hits = boule.Tracer(centers, radii).closest(org, dir)
@@ -18,6 +18,7 @@ from ._core import Picture as Picture
 from ._core import isa as isa
 from ._core import version as __version__
 from ._objects import (
+    Capsule,
     ConstantBackground,
     DirectionalLight,
     Distortion,
@@ -45,11 +46,13 @@ from ._objects import (
     ThinLens,
 )
 from ._rendering import Interrupted, render
-from ._scene import Group, Scene, Spheres
+from ._scene import Capsules, Group, Scene, Spheres
 from ._sources import frames, from_ase, from_particles, load
 from ._tracing import Chords, Crossings, Hits, Tracer
 
 __all__ = [
+    "Capsule",
+    "Capsules",
     "Chords",
     "ConstantBackground",
     "Crossings",

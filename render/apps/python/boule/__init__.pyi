@@ -386,6 +386,22 @@ class Plane:
         color: _Color | None = ...,
     ) -> None: ...
 
+class Capsule:
+    a: _Vector
+    b: _Vector
+    radius: float
+    material: _Material | str | None
+    color: _Color | None
+    def __init__(
+        self,
+        *,
+        a: _Vector = ...,
+        b: _Vector = ...,
+        radius: float = ...,
+        material: _Material | str | None = ...,
+        color: _Color | None = ...,
+    ) -> None: ...
+
 class Instance:
     group: Group | str | None
     translate: _Vector
@@ -470,9 +486,39 @@ class Spheres:
     @property
     def range(self) -> list[float] | None: ...
 
+class Capsules:
+    color: _Color | None
+    material: _Material | str | None
+    def __init__(
+        self,
+        a: ArrayLike,
+        b: ArrayLike,
+        radius: ArrayLike,
+        *,
+        colors: ArrayLike | None = ...,
+        color_space: Literal["srgb", "linear"] = ...,
+        scalar: ArrayLike | None = ...,
+        map: _Map | None = ...,
+        range: Sequence[float] | None = ...,
+        color: _Color | None = ...,
+        material: _Material | str | None = ...,
+    ) -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def a(self) -> NDArray[Any]: ...
+    @property
+    def b(self) -> NDArray[Any]: ...
+    @property
+    def radius(self) -> NDArray[np.float32]: ...
+    @property
+    def colors(self) -> NDArray[np.uint8] | None: ...
+    @property
+    def range(self) -> list[float] | None: ...
+
 class _Objects:
     spheres: list[Sphere | Spheres | Particles]
     planes: list[Plane]
+    capsules: list[Capsule | Capsules]
     instances: list[Instance]
     def add_spheres(
         self,
@@ -522,6 +568,29 @@ class _Objects:
         material: _Material | str | None = ...,
         color: _Color | None = ...,
     ) -> Plane: ...
+    def add_capsules(
+        self,
+        a: ArrayLike,
+        b: ArrayLike,
+        radius: ArrayLike,
+        *,
+        colors: ArrayLike | None = ...,
+        color_space: Literal["srgb", "linear"] = ...,
+        scalar: ArrayLike | None = ...,
+        map: _Map | None = ...,
+        range: Sequence[float] | None = ...,
+        color: _Color | None = ...,
+        material: _Material | str | None = ...,
+    ) -> Capsules: ...
+    def add_capsule(
+        self,
+        *,
+        a: _Vector = ...,
+        b: _Vector = ...,
+        radius: float = ...,
+        material: _Material | str | None = ...,
+        color: _Color | None = ...,
+    ) -> Capsule: ...
     def add_instance(
         self,
         group: Group | str,
@@ -565,6 +634,7 @@ class Scene(_Objects):
         planes: Sequence[Plane] | None = ...,
         groups: Mapping[str, Group] | None = ...,
         instances: Sequence[Instance] | None = ...,
+        capsules: Sequence[Capsule | Capsules] | None = ...,
         origin: str | _Vector = ...,
     ) -> None: ...
     def add_group(self, name: str) -> Group: ...

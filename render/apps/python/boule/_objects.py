@@ -26,6 +26,7 @@ _MORE = {
     "fit": ("distortion",),
     "sphere": ("color",),
     "plane": ("color",),
+    "capsule": ("color",),
     "particles": (
         "file", "frame", "format", "columns", "water", "radius", "radii", "scale", "color",
         "colors", "nan_color", "select", "wrap", "replicate", "material",
@@ -347,6 +348,11 @@ class Sphere(Table):
 @_of("plane", "plane", type_key=False)
 class Plane(Table):
     """An infinite plane through point; normal points to its outside."""
+
+
+@_of("capsule", "capsule", type_key=False)
+class Capsule(Table):
+    """All points within radius of the segment from a to b; a sphere if they are equal."""
 
 
 @_of("instance", "instance", type_key=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from . import _objects as objects
 from ._core import Data
-from ._scene import Group, Scene, Spheres
+from ._scene import Capsules, Group, Scene, Spheres
 
 _CLASSES = {
     kind: {cls._type: cls for cls in vars(objects).values() if getattr(cls, "_kind", "") == kind}
@@ -44,6 +44,8 @@ def _fill(target, values):
     if values["spheres"] is not None:
         target.spheres.append(Spheres._of(values["spheres"]))
     target.planes = [_made(objects.Plane, keys) for keys in values["planes"]]
+    if values["capsules"] is not None:
+        target.capsules.append(Capsules._of(values["capsules"]))
     target.instances = [_made(objects.Instance, keys) for keys in values["instances"]]
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from . import _checks as checks
 from . import _core
 from ._objects import (
+    Capsule,
     ConstantBackground,
     Distortion,
     Fit,
@@ -114,8 +115,83 @@ class Spheres(checks.Strict):
         return table
 
 
+class Capsules(checks.Strict):
+    """Many capsules in arrays, which are read once: you may change the arrays afterwards. A capsule
+    is all points within a radius of a segment.
+
+    a, b: the ends of the segments, N x 3, float32 or float64, or one end, (3,), for all. If one of
+        them is float64, both are kept as they are, 48 bytes a capsule, and rounded once, after the
+        origin of the scene is subtracted.
+    radius: N, or one number for all, above 0.
+    colors, color_space, scalar, map, range, color, material: as those of Spheres.
+
+    Of these, color and material can be set afterwards. All are checked when they are set, but for
+    the name of a material, which is looked up when the scene is rendered. No other attribute can be
+    set.
+    """
+
+    def __init__(
+        self, a, b, radius, *, colors=None, color_space="srgb", scalar=None, map=None, range=None,
+        color=None, material=None,
+    ):  # fmt: skip
+        if color is not None and not (colors is None and scalar is None):
+            raise error("color", "cannot stand beside 'colors' or 'scalar'")
+        self._data, self._range = _core.capsules(
+            a, b, radius, colors, color_space, scalar, map, range
+        )
+        self.color = color
+        self.material = material
+
+    @classmethod
+    def _of(cls, data):
+        """Those of a scene that was read."""
+        self = cls.__new__(cls)
+        self._data = data
+        self._range = None
+        self.color = self.material = None
+        return self
+
+    def __len__(self):
+        return len(self.radius)
+
+    def _ends(self, name):
+        views = _core.capsule_views(self._data)
+        if views["base"] == (0, 0, 0) or views[name].dtype == "float64":
+            return views[name]
+        return views[name] + views["base"]
+
+    @property
+    def a(self):
+        """N x 3, read-only; a view unless the scene that they were read with has an origin."""
+        return self._ends("a")
+
+    @property
+    def b(self):
+        """N x 3, as a."""
+        return self._ends("b")
+
+    @property
+    def radius(self):
+        """N, float32, a read-only view."""
+        return _core.capsule_views(self._data)["radius"]
+
+    @property
+    def colors(self):
+        """The colours that they have of their own: N x 3 of uint8, or None."""
+        return _core.capsule_colors(self._data)
+
+    range = Spheres.range
+    color = Spheres.color
+    material = Spheres.material
+
+    def __repr__(self):
+        return f"<boule.Capsules, {len(self)} of them>"
+
+    _table = Spheres._table
+
+
 class _Objects(checks.Strict):
-    """What a scene and a group have in common. spheres, planes and instances are lists."""
+    """What a scene and a group have in common: lists of objects and instances."""
 
     def add_spheres(
         self, centers, radii, *, colors=None, color_space="srgb", scalar=None, map=None,
@@ -144,6 +220,23 @@ class _Objects(checks.Strict):
         self.planes.append(Plane(**keys))
         return self.planes[-1]
 
+    def add_capsules(
+        self, a, b, radius, *, colors=None, color_space="srgb", scalar=None, map=None, range=None,
+        color=None, material=None,
+    ):  # fmt: skip
+        """Adds capsules in arrays: see Capsules, which it returns."""
+        capsules = Capsules(
+            a, b, radius, colors=colors, color_space=color_space, scalar=scalar, map=map,
+            range=range, color=color, material=material,
+        )  # fmt: skip
+        self.capsules.append(capsules)
+        return capsules
+
+    def add_capsule(self, **keys):
+        """Adds one capsule: see Capsule, which it returns."""
+        self.capsules.append(Capsule(**keys))
+        return self.capsules[-1]
+
     def add_instance(self, group, **keys):
         """Adds an instance of a group, which is a Group or the name of one."""
         self.instances.append(Instance(group=group, **keys))
@@ -156,6 +249,9 @@ class _Objects(checks.Strict):
         for one in _spheres("spheres", self.spheres):
             kind = next(name for cls, name in kinds.items() if isinstance(one, cls))
             order.append((kind, one._table(names)))
+        for one in _capsules("capsules", self.capsules):
+            kind = "capsule" if isinstance(one, Capsule) else "capsules"
+            order.append((kind, one._table(names)))
         tables = {None: order}
         tables["plane"] = [one._table(names) for one in _planes("planes", self.planes)]
         tables["instance"] = [one._table(names) for one in _instances("instances", self.instances)]
@@ -164,6 +260,7 @@ class _Objects(checks.Strict):
 
 _spheres = checks.list_of("spheres", "spheres", checks.is_instance(Sphere, Spheres, Particles))
 _planes = checks.list_of("plane", "a Plane", checks.is_instance(Plane))
+_capsules = checks.list_of("capsules", "capsules", checks.is_instance(Capsule, Capsules))
 _instances = checks.list_of("instance", "an Instance", checks.is_instance(Instance))
 _lights = checks.list_of("light", "a light", checks.is_kind("light"))
 _notes = checks.list_of("notes", "text", checks.is_instance(str))
@@ -178,13 +275,15 @@ class Group(_Objects):
     Attributes are checked when they are set, and no others can be set."""
 
     _checks = {
-        "name": checks.text_or_none, "spheres": _spheres, "planes": _planes, "instances": _instances,
+        "name": checks.text_or_none, "spheres": _spheres, "planes": _planes,
+        "capsules": _capsules, "instances": _instances,
     }  # fmt: skip
 
     def __init__(self, name=""):
         self.name = name
         self.spheres = []
         self.planes = []
+        self.capsules = []
         self.instances = []
 
     def __repr__(self):
@@ -230,14 +329,17 @@ class Scene(_Objects):
     """A scene, as values: the tables and keys of scene files, with the same names and defaults.
 
     image, render: ImageSettings and RenderSettings.
-    camera: Pinhole, Orthographic, Fisheye, ThinLens, Lens; Fit or None: fitted to the spheres.
+    camera: Pinhole, Orthographic, Fisheye, ThinLens, Lens; Fit or None: fitted to the spheres and
+        capsules.
     background: ConstantBackground, GradientBackground or EnvironmentBackground.
     ambient: light on every surface from everywhere (method "whitted").
     backdrop: the colour that the camera sees behind all objects, not the background; or None.
     materials: a dictionary of materials by name.
     lights: a list of PointLight, DirectionalLight, SphereLight.
     spheres: a list of Sphere, Spheres and Particles; ids count them in this order.
-    planes, instances: lists of Plane and Instance. groups: a dictionary of Group by name.
+    planes, instances: lists of Plane and Instance.
+    capsules: a list of Capsule and Capsules; their ids follow those of the planes.
+    groups: a dictionary of Group by name.
     origin: a point that is subtracted from all points before they are rounded, or "auto".
     notes, warnings: messages from reading the scene. legend: an SVG that explains its colours.
 
@@ -249,14 +351,14 @@ class Scene(_Objects):
         "image": checks.one("image"), "render": checks.one("render"), "camera": checks.camera,
         "background": checks.one("background"), "ambient": checks.color, "backdrop": checks.color,
         "materials": _materials, "lights": _lights, "spheres": _spheres, "planes": _planes,
-        "groups": _groups, "instances": _instances, "origin": checks.origin, "notes": _notes,
-        "warnings": _warnings, "legend": checks.text,
+        "capsules": _capsules, "groups": _groups, "instances": _instances,
+        "origin": checks.origin, "notes": _notes, "warnings": _warnings, "legend": checks.text,
     }  # fmt: skip
 
     def __init__(
         self, *, image=None, render=None, camera=None, background=None, ambient=(0.0, 0.0, 0.0),
         backdrop=None, materials=None, lights=None, spheres=None, planes=None, groups=None,
-        instances=None, origin="auto",
+        instances=None, capsules=None, origin="auto",
     ):  # fmt: skip
         self.image = ImageSettings() if image is None else image
         self.render = RenderSettings() if render is None else render
@@ -268,6 +370,7 @@ class Scene(_Objects):
         self.lights = [] if lights is None else list(_lights("lights", lights))
         self.spheres = [] if spheres is None else list(_spheres("spheres", spheres))
         self.planes = [] if planes is None else list(_planes("planes", planes))
+        self.capsules = [] if capsules is None else list(_capsules("capsules", capsules))
         self.groups = {} if groups is None else dict(_groups("groups", groups))
         self.instances = [] if instances is None else list(_instances("instances", instances))
         self.origin = origin

@@ -20,9 +20,10 @@ class Hits(NamedTuple):
     """The hits of N rays. A miss has t = inf, id = -1 and the normal 0.
 
     t: N, float64, in units of the length of dir.
-    id: N, int32: of the sphere or plane, spheres first.
+    id: N, int32: of the sphere, plane or capsule, in this order.
     normal: N x 3, float32: unit length, turned against the ray.
-    entering: N, bool: the ray goes into the sphere there, or through the plane against its normal.
+    entering: N, bool: the ray goes into the sphere or capsule there, or through the plane against
+        its normal.
     hit: N, bool: whether the ray meets anything.
     """
 
@@ -38,12 +39,12 @@ class Hits(NamedTuple):
 
 class Crossings(NamedTuple):
     """All that N rays cross, in order of t. The crossings of ray k are those from offset[k] to
-    before offset[k + 1]: of equal t the lower id comes first, and of one sphere the entry.
+    before offset[k + 1]: of equal t the lower id comes first, and of one primitive the entry.
 
     offset: N + 1, int64.
     t: M, float64, in units of the length of dir.
-    id: M, int32: of the sphere or plane, spheres first.
-    entering: M, bool: as in Hits. A line that touches a sphere crosses it once, entering.
+    id: M, int32: of the sphere, plane or capsule, in this order.
+    entering: M, bool: as in Hits. A line that touches one crosses it once, entering.
     """
 
     offset: NDArray[np.int64]
@@ -53,7 +54,7 @@ class Crossings(NamedTuple):
 
 
 class Chords(NamedTuple):
-    """The lengths of N rays inside spheres. Those of ray k are from offset[k] to before
+    """The lengths of N rays inside spheres and capsules. Those of ray k are from offset[k] to before
     offset[k + 1], in the order of ids.
 
     offset: N + 1, int64.
@@ -147,9 +148,9 @@ class Tracer(Strict):
         or one direction, (3,), serves all rays. dir need not be of unit length; it is rounded to
         float32. The rest is exact in float64.
         tmin, tmax, source, inside: N, or one value for all.
-        source: the id of the sphere or plane that the ray leaves, which it then does not meet again
-        by rounding; -1: none. inside: the ray starts on the surface of the sphere `source` and goes
-        into it: it meets it at its far side.
+        source: the id of the sphere, plane or capsule that the ray leaves, which it then does not
+        meet again by rounding; -1: none. inside: the ray starts on the surface of `source`, a
+        sphere or capsule, and goes into it: it meets it at its far side.
         out: Hits of N rays that are written to, in place of new ones.
 
         Rays may have any shape in place of N: org of H x W x 3 gives t of H x W. Returns Hits.
@@ -178,8 +179,8 @@ class Tracer(Strict):
     ):
         """All crossings with tmin < t <= tmax, or the first `limit` of each ray.
 
-        A sphere is crossed twice, where the ray enters and where it leaves; a plane once. Other
-        arguments are those of closest(); rays of other shapes than N are counted in C order.
+        A sphere or capsule is crossed twice, where the ray enters and where it leaves; a plane
+        once. Other arguments are those of closest(); rays of other shapes than N are counted in C order.
         Decisions are exact, whatever the solver. Of more than 16 exact copies of one sphere in a
         packed scene, two are found. Returns Crossings.
         """
@@ -198,10 +199,11 @@ class Tracer(Strict):
     def chord(
         self, org, dir, tmin=0.0, tmax=float("inf"), *, source=-1, inside=False, per_sphere=False
     ):
-        """The length of each ray inside the union of all spheres, between tmin and tmax.
+        """The length of each ray inside the union of all spheres and capsules, between tmin and
+        tmax.
 
-        In units of the length of dir: N, float64. Where spheres overlap it counts once. With
-        per_sphere, the length inside each sphere on its own: Chords. Arguments are those of
+        In units of the length of dir: N, float64. Where they overlap it counts once. With
+        per_sphere, the length inside each sphere and capsule on its own: Chords. Arguments are those of
         closest().
         """
         if not isinstance(per_sphere, bool):

@@ -36,9 +36,25 @@ struct SphereArrays {
                    const ParallelFor& parallel_for = serial_for) const;
 };
 
+/// The same for capsules.
+struct CapsuleArrays {
+  /// Rounded, with the ends counted from `base`, unless `ends` has these.
+  std::vector<Capsule> capsules;
+  Vec3d base{};
+  /// Of double precision, both of each capsule; empty: those of the capsules.
+  std::vector<Vec3d> ends{};
+  std::vector<std::string> materials{};
+  bool has_colors = false;
+
+  [[nodiscard]] SphereExtent extent(const ParallelFor& parallel_for) const;
+  Status append_to(std::vector<Capsule>& target, const Vec3d& origin,
+                   const ParallelFor& parallel_for = serial_for) const;
+};
+
 /// What stands in memory in place of files, by the names that a scene gives it.
 struct SceneData {
   std::map<std::string, std::shared_ptr<const SphereArrays>> spheres{};
+  std::map<std::string, std::shared_ptr<const CapsuleArrays>> capsules{};
   std::map<std::string, std::shared_ptr<ParticleFile>> particles{};
   std::map<std::string, std::shared_ptr<const Image>> pictures{};
   std::map<std::string, std::shared_ptr<const std::vector<LensSurface>>> lenses{};

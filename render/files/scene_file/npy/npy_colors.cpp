@@ -45,7 +45,8 @@ Diagnostic row_error(std::uint64_t row, const std::string& message) {
 /// A file of `rows` rows of numbers, read block by block.
 class NumberRows {
  public:
-  static Result<NumberRows> open(const std::string& path, std::size_t rows, std::size_t columns);
+  static Result<NumberRows> open(const std::string& path, std::size_t rows, std::size_t columns,
+                                 const char* of_each);
 
   [[nodiscard]] bool holds_bytes() const { return type_.width == 1; }
   [[nodiscard]] bool holds_floats() const { return type_.descr[1] == 'f'; }
@@ -63,7 +64,8 @@ class NumberRows {
 };
 
 /// Refuses another shape than rows x columns; of one column also that of a plain list.
-Status check_shape(const NpyHeader& header, std::size_t rows, std::size_t columns) {
+Status check_shape(const NpyHeader& header, std::size_t rows, std::size_t columns,
+                   const char* of_each) {
   const auto& shape = header.shape;
   const bool is_list = columns == 1 && shape.size() == 1;
   const bool is_table = shape.size() == 2 && shape[1] == columns;
@@ -71,11 +73,11 @@ Status check_shape(const NpyHeader& header, std::size_t rows, std::size_t column
   const std::string count = std::to_string(rows);
   return Diagnostic::of("has shape " + npy_shape_text(header) + ", expected (" + count +
                         (columns == 1 ? ",)" : ", " + std::to_string(columns) + ")") +
-                        ": a row for each sphere");
+                        ": a row for each " + of_each);
 }
 
-Result<NumberRows> NumberRows::open(const std::string& path, std::size_t rows,
-                                    std::size_t columns) {
+Result<NumberRows> NumberRows::open(const std::string& path, std::size_t rows, std::size_t columns,
+                                    const char* of_each) {
   auto file = InputFile::open(path);
   if (!file) return file.error();
   const auto header = read_npy_header(file.value());
@@ -90,7 +92,7 @@ Result<NumberRows> NumberRows::open(const std::string& path, std::size_t rows,
   if (header.value().fortran_order && columns > 1) {
     return Diagnostic::of("is in Fortran order, expected C order (row by row)");
   }
-  if (auto done = check_shape(header.value(), rows, columns); !done) return done.error();
+  if (auto done = check_shape(header.value(), rows, columns, of_each); !done) return done.error();
   if (auto done = check_npy_length(header.value(), columns * type->width, file.value().size());
       !done) {
     return done.error();
@@ -126,8 +128,8 @@ std::optional<std::uint8_t> color_code(double number, ColorSpace space) {
   return static_cast<std::uint8_t>(std::lround(number * 255));
 }
 
-Status color_by_npy(const std::string& path, ColorSpace space, std::span<Sphere> spheres) {
-  auto rows = NumberRows::open(path, spheres.size(), 3);
+Status color_by_npy(const std::string& path, ColorSpace space, const MaterialRows& materials) {
+  auto rows = NumberRows::open(path, materials.count, 3, materials.of_each);
   if (!rows) return rows.error();
   const bool holds_bytes = rows.value().holds_bytes();
   if (!holds_bytes && !rows.value().holds_floats()) {
@@ -143,14 +145,15 @@ Status color_by_npy(const std::string& path, ColorSpace space, std::span<Sphere>
       if (!code) return row_error(row, "must be from 0 to 1, is " + number_text(rgb[i]));
       codes[i] = *code;
     }
-    MaterialRef& material = spheres[row].material;
+    MaterialRef& material = materials.at(row);
     material = MaterialRef::colored(material.index(), {codes[0], codes[1], codes[2]});
     return {};
   });
 }
 
-Result<std::vector<double>> read_npy_scalars(const std::string& path, std::size_t count) {
-  auto rows = NumberRows::open(path, count, 1);
+Result<std::vector<double>> read_npy_scalars(const std::string& path, std::size_t count,
+                                             const char* of_each) {
+  auto rows = NumberRows::open(path, count, 1, of_each);
   if (!rows) return rows.error();
   if (auto done = check_memory(std::uint64_t{count} * sizeof(double),
                                std::to_string(count) + " numbers need");

@@ -12,14 +12,18 @@
 
 namespace boule {
 
-/// Which spheres a .npy file holds: N x 4 numbers (centre, radius), or N x 3 and one radius.
-struct NpySpheres {
+/// Which spheres or capsules a .npy file holds: N x 4 numbers (centre, radius), or N x 3 and one
+/// radius; of capsules N x 7 (a, b, radius), or N x 6 and one radius.
+template <class Primitive>
+struct NpyPrimitives {
   std::string path;
-  std::optional<float> radius;  ///< above 0; required for N x 3, refused for N x 4
+  std::optional<float> radius;  ///< above 0; required without a column of radii, refused with one
   MaterialRef material;         ///< of all of them
   bool is_scene = false;        ///< the file is the whole scene: no key can give a radius
-  Vec3d origin{};               ///< subtracted from the centres before they are rounded
+  Vec3d origin{};               ///< subtracted from the points before they are rounded
 };
+using NpySpheres = NpyPrimitives<Sphere>;
+using NpyCapsules = NpyPrimitives<Capsule>;
 
 /// Appends the file's spheres: little-endian float32 or float64, C order, each number rounded to
 /// float once. Sizes are checked before anything is allocated; a bad sphere is named by its row,
@@ -27,9 +31,13 @@ struct NpySpheres {
 /// same for any threads. Passes on what `parallel_for` throws; the spheres may then be longer.
 Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres,
                       const ParallelFor& parallel_for = serial_for);
+/// The same for capsules.
+Status append_capsules(const NpyCapsules& request, std::vector<Capsule>& capsules,
+                       const ParallelFor& parallel_for = serial_for);
 
-/// Where the file's spheres are, before the origin is subtracted and they are rounded. Nothing of a
-/// file that append_spheres() refuses.
+/// Where the file's spheres are, or the spheres around the ends of its capsules, before the origin
+/// is subtracted and they are rounded. Nothing of a file that is refused.
 SphereExtent extent_of(const NpySpheres& request, const ParallelFor& parallel_for = serial_for);
+SphereExtent extent_of(const NpyCapsules& request, const ParallelFor& parallel_for = serial_for);
 
 }  // namespace boule

@@ -4,6 +4,7 @@
 #include <array>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include "core/scene/instances.h"
@@ -46,18 +47,37 @@ void count_from(const Vec3d& group_origin, TomlTable& table, Instance& instance)
   instance.translate = {*x, *y, *z};
 }
 
-}  // namespace
-
-const SphereArrays* find_arrays(TomlTable& table) {
-  std::string name;
-  if (table.data() == nullptr || !table.has_text("file")) return nullptr;
-  table.read("file", name);
-  return find_data(&table.data()->spheres, name);
+/// Ids follow the order in the file, of all of them together.
+template <class Tables>
+void sort_by_place(std::vector<Tables>& all) {
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    const TextPlace p = a.table.place(), q = b.table.place();
+    return std::tie(p.line, p.column) < std::tie(q.line, q.column);
+  });
 }
+
+Status append(const NpySpheres& request, std::vector<Sphere>& spheres,
+              const ParallelFor& parallel_for) {
+  return append_spheres(request, spheres, parallel_for);
+}
+Status append(const NpyCapsules& request, std::vector<Capsule>& capsules,
+              const ParallelFor& parallel_for) {
+  return append_capsules(request, capsules, parallel_for);
+}
+
+/// A primitive with this radius.
+template <class Primitive>
+Primitive of_radius(float radius) {
+  Primitive primitive;
+  primitive.radius = radius;
+  return primitive;
+}
+
+}  // namespace
 
 ObjectTables object_tables(TomlTable& table) {
   ObjectTables tables;
-  each_other_kind([&](auto kind) { kind.of(tables) = table.tables(kind.name); });
+  tables.planes = table.tables("plane");
   tables.instances = table.tables("instance");
   auto& all = tables.spheres;
   constexpr std::array keys{"sphere", "spheres", "particles"};  // in the order of Source
@@ -65,11 +85,12 @@ ObjectTables object_tables(TomlTable& table) {
     const auto source = static_cast<ObjectTables::Source>(i);
     for (TomlTable& one : table.tables(keys[i])) all.push_back({std::move(one), source});
   }
-  // Ids follow the order in the file, of all of them together.
-  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
-    const TextPlace p = a.table.place(), q = b.table.place();
-    return std::tie(p.line, p.column) < std::tie(q.line, q.column);
-  });
+  sort_by_place(all);
+  for (const bool are_many : {false, true}) {
+    for (TomlTable& one : table.tables(are_many ? "capsules" : "capsule"))
+      tables.capsules.push_back({std::move(one), are_many});
+  }
+  sort_by_place(tables.capsules);
   return tables;
 }
 
@@ -162,9 +183,10 @@ void TomlObjects::read_sphere(TomlTable& table, std::vector<Sphere>& spheres) {
   spheres.push_back(read_checked<Sphere>(table));
 }
 
-/// Appends spheres in memory, whose materials are those of the scene that have their names.
-void TomlObjects::add_arrays(TomlTable& table, const SphereArrays& arrays,
-                             std::vector<Sphere>& spheres) {
+/// Appends primitives in memory, whose materials are those of the scene that have their names.
+template <class Arrays, class Primitive>
+void TomlObjects::add_arrays(TomlTable& table, const Arrays& arrays,
+                             std::vector<Primitive>& primitives) {
   std::vector<std::uint32_t> ids;
   for (const std::string& name : arrays.materials) {
     const auto found = material_ids_.find(name);
@@ -183,12 +205,12 @@ void TomlObjects::add_arrays(TomlTable& table, const SphereArrays& arrays,
                                         " of the scene: those can be given colours");
   }
   if (!error_.status()) return;
-  const std::size_t before = spheres.size();
-  if (auto done = arrays.append_to(spheres, table.origin(), options_.parallel_for); !done) {
+  const std::size_t before = primitives.size();
+  if (auto done = arrays.append_to(primitives, table.origin(), options_.parallel_for); !done) {
     return table.report("file", done.error().message);
   }
-  for (Sphere& sphere : std::span(spheres).subspan(before)) {
-    MaterialRef& ref = sphere.material;
+  for (Primitive& one : std::span(primitives).subspan(before)) {
+    MaterialRef& ref = one.material;
     const std::uint32_t id = ids[std::min<std::size_t>(ref.index(), ids.size() - 1)];
     ref = ref.has_color()      ? MaterialRef::colored(id, ref.color())
           : common.has_color() ? common
@@ -196,37 +218,41 @@ void TomlObjects::add_arrays(TomlTable& table, const SphereArrays& arrays,
   }
 }
 
-void TomlObjects::read_bulk(TomlTable& table, std::vector<Sphere>& spheres) {
-  if (const SphereArrays* arrays = find_arrays(table)) return add_arrays(table, *arrays, spheres);
+template <class Primitive>
+void TomlObjects::read_bulk(TomlTable& table, std::vector<Primitive>& primitives) {
+  if (const auto* arrays = find_arrays<Primitive>(table))
+    return add_arrays(table, *arrays, primitives);
   std::string name;
-  NpySpheres request;
+  NpyPrimitives<Primitive> request;
   table.read_file_name("file", name);
   if (table.has("radius")) table.read("radius", request.radius.emplace());
   request.material = colored_material_of(table);
   const SphereColors colors = read_sphere_colors(table);
   table.finish({"file"});
-  if (request.radius) table.check(find_problem(Sphere{{}, *request.radius}));
+  if (request.radius) table.check(find_problem(of_radius<Primitive>(*request.radius)));
   if (colors.any()) colorable_material_of(table, "material");
   if (!error_.status()) return;
   request.path = table.file_path(name);
   request.origin = table.origin();
-  const std::size_t before = spheres.size();
-  if (auto done = append_spheres(request, spheres, options_.parallel_for); !done) {
+  const std::size_t before = primitives.size();
+  if (auto done = append(request, primitives, options_.parallel_for); !done) {
     return table.report("file", quote(name) + ": " + done.error().message);
   }
-  if (colors.any()) color_bulk(table, colors, request.path, std::span(spheres).subspan(before));
+  if (colors.any()) color_bulk(table, colors, request.path, std::span(primitives).subspan(before));
 }
 
+template <class Primitive>
 void TomlObjects::color_bulk(TomlTable& table, const SphereColors& colors, const std::string& path,
-                             std::span<Sphere> spheres) {
-  auto mapped = color_spheres(table, colors, spheres, options_);
+                             std::span<Primitive> primitives) {
+  auto mapped = color_spheres(table, colors, materials_of(primitives), options_);
   if (!mapped) return;
+  const char* const column = std::is_same_v<Primitive, Sphere> ? "column 3" : "column 6";
   facts_.push_back({.table = table.path(),
                     .file = path,
                     .format = "npy",
-                    .particles = spheres.size(),
-                    .spheres = spheres.size(),
-                    .radius_source = table.has("radius") ? "the key radius" : "column 3"});
+                    .particles = primitives.size(),
+                    .spheres = primitives.size(),
+                    .radius_source = table.has("radius") ? "the key radius" : column});
   facts_.back().colors.scale = std::move(mapped->scale);
   facts_.back().own = std::move(mapped->own);
   if (!mapped->note.empty()) notes_.push_back(std::move(mapped->note));
@@ -235,11 +261,16 @@ void TomlObjects::color_bulk(TomlTable& table, const SphereColors& colors, const
 /// All but spheres, of a scene or a group. A floor is darker than what stands on it.
 template <class Owner>
 void TomlObjects::read_others(ObjectTables& tables, Owner& owner) {
-  each_other_kind([&]<class Primitive>(PrimitiveKind<Primitive> kind) {
-    if (std::is_same_v<Primitive, Plane>) default_ = &default_plane_material_;
-    for (TomlTable& one : kind.of(tables)) kind.of(owner).push_back(read_checked<Primitive>(one));
-    default_ = &default_material_;
-  });
+  default_ = &default_plane_material_;
+  for (TomlTable& one : tables.planes) owner.planes.push_back(read_checked<Plane>(one));
+  default_ = &default_material_;
+  for (auto& [table, are_many] : tables.capsules) {
+    if (are_many) {
+      read_bulk(table, owner.capsules);
+    } else {
+      owner.capsules.push_back(read_checked<Capsule>(table));
+    }
+  }
 }
 
 void TomlObjects::read_instances(std::vector<TomlTable>& tables, std::optional<std::size_t> group,

@@ -9,17 +9,17 @@
 #include <string_view>
 #include <vector>
 
+#include "core/scene/kinds.h"
 #include "core/scene/scene.h"
 #include "render/files/scene_file/loaded/loaded_scene.h"
 #include "render/files/scene_file/loaded/particle_facts.h"
+#include "render/files/scene_file/loaded/scene_data.h"
 #include "render/files/scene_file/toml/toml_fields.h"
 #include "render/files/scene_file/toml/toml_particles.h"
 #include "render/files/scene_file/toml/toml_sphere_colors.h"
 #include "render/files/scene_file/toml/toml_table.h"
 
 namespace boule {
-
-struct SphereArrays;
 
 /// The tables of the objects of a scene or a group, in the order of the file.
 struct ObjectTables {
@@ -31,15 +31,27 @@ struct ObjectTables {
     std::optional<TomlParticles> particles{};  ///< once they are read
   };
   std::vector<Spheres> spheres;
-  std::vector<TomlTable> planes, capsules;
+  std::vector<TomlTable> planes;
+  struct Capsules {
+    TomlTable table;
+    bool are_many;  ///< [[capsules]]
+  };
+  std::vector<Capsules> capsules;
   std::vector<TomlTable> instances;
 };
 
 /// Takes them from the table of a scene or a group; their keys become known.
 ObjectTables object_tables(TomlTable& table);
 
-/// The spheres in memory that a table [[spheres]] names, or null.
-const SphereArrays* find_arrays(TomlTable& table);
+/// The spheres or capsules in memory that a table [[spheres]] or [[capsules]] names, or null.
+template <class Primitive>
+auto find_arrays(TomlTable& table) {
+  std::string name;
+  if (table.data() != nullptr && table.has_text("file")) table.read("file", name);
+  const auto* const all =
+      table.data() == nullptr ? nullptr : &PrimitiveKind<Primitive>::of(*table.data());
+  return find_data(all, name);
+}
 
 /// Reads materials, and the objects of a scene and its groups: first read_materials(), then
 /// start_groups() and load_particles() of all, then the others.
@@ -61,7 +73,7 @@ class TomlObjects final : private TomlNames {
   void read_scene(ObjectTables& tables, const std::vector<Vec3d>& group_origins);
 
   /// Reports what find_instance_problem() finds at the instance's table, and an error if there is
-  /// no memory for the spheres and planes that the instances show.
+  /// no memory for the primitives that the instances show.
   void check_instances();
 
   /// What the files of particles held, and what was decided for the user.
@@ -78,10 +90,14 @@ class TomlObjects final : private TomlNames {
 
   void read_spheres(std::vector<ObjectTables::Spheres>& tables, std::vector<Sphere>& spheres);
   void read_sphere(TomlTable& table, std::vector<Sphere>& spheres);
-  void read_bulk(TomlTable& table, std::vector<Sphere>& spheres);
-  void add_arrays(TomlTable& table, const SphereArrays& arrays, std::vector<Sphere>& spheres);
+  /// Spheres or capsules of a file, or in memory.
+  template <class Primitive>
+  void read_bulk(TomlTable& table, std::vector<Primitive>& primitives);
+  template <class Arrays, class Primitive>
+  void add_arrays(TomlTable& table, const Arrays& arrays, std::vector<Primitive>& primitives);
+  template <class Primitive>
   void color_bulk(TomlTable& table, const SphereColors& colors, const std::string& path,
-                  std::span<Sphere> spheres);
+                  std::span<Primitive> primitives);
   void add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
                      std::vector<Sphere>& spheres);
   void add_images(TomlTable& table, ParticleSpheres particles);

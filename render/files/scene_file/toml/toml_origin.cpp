@@ -20,6 +20,18 @@ SphereExtent of_sphere(TomlTable& table) {
   return extent;
 }
 
+SphereExtent of_capsule(TomlTable& table) {
+  Vec3d a, b;
+  auto radius = static_cast<double>(Capsule{}.radius);
+  table.read("a", a);
+  table.read("b", b);
+  table.read("radius", radius);
+  SphereExtent extent;
+  extent.add(a, radius);
+  extent.add(b, radius);
+  return extent;
+}
+
 SphereExtent of_particles(const ParticleSpheres& particles) {
   if (particles.size() == 0) return {};
   const auto& [low, high] = particles.center_bounds();
@@ -51,6 +63,8 @@ TomlExtents::TomlExtents(const std::vector<TomlTable>& groups, std::vector<Objec
 SceneExtents TomlExtents::parts_of(ObjectTables& objects, std::size_t depth) {
   SceneExtents parts;
   for (ObjectTables::Spheres& spheres : objects.spheres) parts.push_back(of_spheres(spheres));
+  for (auto& [table, are_many] : objects.capsules)
+    parts.push_back(are_many ? of_file<Capsule>(table) : of_capsule(table));
   for (TomlTable& table : objects.instances) parts.push_back(of_instance(table, depth));
   return parts;
 }
@@ -60,16 +74,18 @@ SphereExtent TomlExtents::of_spheres(ObjectTables::Spheres& spheres) {
     case ObjectTables::Source::sphere:
       return of_sphere(spheres.table);
     case ObjectTables::Source::spheres:
-      return of_file(spheres.table);
+      return of_file<Sphere>(spheres.table);
     default:
       return spheres.particles ? of_particles(spheres.particles->spheres) : SphereExtent{};
   }
 }
 
+template <class Primitive>
 SphereExtent TomlExtents::of_file(TomlTable& table) {
-  if (const SphereArrays* arrays = find_arrays(table)) return arrays->extent(options_.parallel_for);
+  if (const auto* arrays = find_arrays<Primitive>(table))
+    return arrays->extent(options_.parallel_for);
   std::string name;
-  NpySpheres request;
+  NpyPrimitives<Primitive> request;
   table.read_file_name("file", name);
   if (table.has("radius")) table.read("radius", request.radius.emplace());
   if (!table.ok()) return {};

@@ -13,8 +13,8 @@
 
 namespace boule {
 
-/// Finds where the spheres of a scene and its groups are, before any of them is rounded. What is
-/// wrong in the tables is told when they are read.
+/// Finds where the spheres and capsules of a scene and its groups are, before any of them is
+/// rounded. What is wrong in the tables is told when they are read.
 class TomlExtents {
  public:
   /// `groups` are the tables of the groups, with their objects in the same order. The particles are
@@ -28,6 +28,7 @@ class TomlExtents {
  private:
   SceneExtents parts_of(ObjectTables& objects, std::size_t depth);
   SphereExtent of_spheres(ObjectTables::Spheres& spheres);
+  template <class Primitive>
   SphereExtent of_file(TomlTable& table);
   SphereExtent of_instance(TomlTable& table, std::size_t depth);
   const SphereExtent& of_group(std::size_t group, std::size_t depth);

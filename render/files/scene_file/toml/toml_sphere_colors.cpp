@@ -32,17 +32,17 @@ MappedSpheres choose_range(const TomlTable& table, const SphereColors& keys,
 }
 
 std::optional<MappedSpheres> map_numbers(TomlTable& table, const SphereColors& keys,
-                                         std::span<Sphere> spheres,
+                                         const MaterialRows& materials,
                                          const SceneFileOptions& options) {
-  auto numbers = read_npy_scalars(table.file_path(keys.scalar), spheres.size());
+  auto numbers = read_npy_scalars(table.file_path(keys.scalar), materials.count, materials.of_each);
   if (!numbers) {
     table.report("scalar", quote(keys.scalar) + ": " + numbers.error().message);
     return std::nullopt;
   }
   MappedSpheres mapped = choose_range(table, keys, numbers.value(), options);
   const RangePlace place(mapped.scale.range);
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
-    MaterialRef& material = spheres[i].material;
+  for (std::size_t i = 0; i < materials.count; ++i) {
+    MaterialRef& material = materials.at(i);
     material =
         MaterialRef::colored(material.index(), keys.map.map.color(place(numbers.value()[i])));
   }
@@ -82,10 +82,10 @@ SphereColors read_sphere_colors(TomlTable& table) {
 }
 
 std::optional<MappedSpheres> color_spheres(TomlTable& table, const SphereColors& keys,
-                                           std::span<Sphere> spheres,
+                                           const MaterialRows& materials,
                                            const SceneFileOptions& options) {
-  if (!keys.scalar.empty()) return map_numbers(table, keys, spheres, options);
-  if (auto done = color_by_npy(table.file_path(keys.colors), keys.space, spheres); !done) {
+  if (!keys.scalar.empty()) return map_numbers(table, keys, materials, options);
+  if (auto done = color_by_npy(table.file_path(keys.colors), keys.space, materials); !done) {
     table.report("colors", quote(keys.colors) + ": " + done.error().message);
   }
   return std::nullopt;

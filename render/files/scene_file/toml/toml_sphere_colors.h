@@ -1,7 +1,6 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 
 #include "core/scene/primitive.h"
@@ -13,8 +12,8 @@
 
 namespace boule {
 
-/// Where the spheres of a table [[spheres]] have their colours from: a file of colours, or one of
-/// numbers that a map makes colours of.
+/// Where the primitives of a table [[spheres]] or [[capsules]] have their colours from: a file of
+/// colours, or one of numbers that a map makes colours of.
 struct SphereColors {
   std::string colors;  ///< name of the file, or empty
   ColorSpace space = ColorSpace::srgb;
@@ -36,10 +35,10 @@ struct MappedSpheres {
 /// the table.
 SphereColors read_sphere_colors(TomlTable& table);
 
-/// Colours the spheres of a table; they keep their material, which is one that can be coloured.
-/// The map of numbers, if there is one. Errors are reported through the table.
+/// Colours the spheres or capsules of a table; they keep their material, which is one that can be
+/// coloured. The map of numbers, if there is one. Errors are reported through the table.
 std::optional<MappedSpheres> color_spheres(TomlTable& table, const SphereColors& keys,
-                                           std::span<Sphere> spheres,
+                                           const MaterialRows& materials,
                                            const SceneFileOptions& options);
 
 }  // namespace boule
