@@ -42,7 +42,8 @@ Order order_of(const std::vector<Capsule>& capsules, const ParallelFor& parallel
     spheres.push_back(sphere);
     ids.push_back(id);
   }
-  order.tree = build_bvh(std::move(spheres), parallel_for, {.depth = 1, .keeps_apart = false});
+  // The kernels make a leaf one more level of nodes, for which depth 2 leaves room.
+  order.tree = build_bvh(std::move(spheres), parallel_for, {.depth = 2, .keeps_apart = false});
   for (std::int32_t& slot : order.tree.slots) {
     if (slot >= 0) slot = ids[static_cast<std::size_t>(slot)];
   }

@@ -6,34 +6,173 @@
 namespace boule::BOULE_KERNEL_ISA {
 namespace {
 
-/// The nearest hit per lane, from the one among the other primitives on.
-class ClosestCapsule : public ClosestHit {
+/// Pairs of a ray and a capsule that wait for the double solver, which takes W of them at a time.
+/// Answers: HitStream for nearest hits, std::uint8_t* for any.
+template <class Answers>
+class CapsuleQueue {
  public:
-  BOULE_INLINE ClosestCapsule(const RayLanes& rays, const Wide& t_so_far, const Bits& id_so_far,
-                              const Bits& slot_so_far)
-      : ClosestHit(rays) {
-    t = t_so_far;
-    id = id_so_far;
-    slot = slot_so_far;
-    const Real known = distance(t, rays);
-    reach = select(known < reach, known, reach);
+  CapsuleQueue(const RayStream& rays, const CapsuleView& capsules, const Answers& answers)
+      : rays_(rays), capsules_(capsules), answers_(answers) {}
+
+  BOULE_INLINE void add(std::size_t ray, std::uint32_t slot) {
+    gathered_.set(size_, rays_, ray);
+    ray_[size_] = ray;
+    slot_[size_] = slot;
+    if (++size_ == width) finish();
   }
-  BOULE_INLINE void meet(const RayLanes& rays, const CapsuleLanes& capsule, const Bits& in_slot,
-                         unsigned /*out*/) {
-    offer(solve_robust(rays, capsule), capsule.id, in_slot, rays);
+  /// Solves the pairs that wait.
+  BOULE_NOINLINE void finish() {
+    if (size_ == 0) return;
+    for (std::size_t k = size_; k < width; ++k) {
+      gathered_.set(k, rays_, ray_[0]);
+      slot_[k] = slot_[0];
+    }
+    ExactRays rays;
+    load_exact(gathered_.view(width), 0, rays);
+    const CapsuleLanes capsules = gather_capsules(capsules_, slot_);
+    const Roots roots = solve_robust(rays, capsules);
+    alignas(64) double t[width];
+    alignas(64) std::int32_t id[width];
+    store(t, roots.t);
+    store(id, capsules.id);
+    for (unsigned hit = bits(roots.hit) & first_lanes(size_); hit != 0; hit &= hit - 1) {
+      const int k = __builtin_ctz(hit);
+      answer(answers_, ray_[k], {t[k], id[k], slot_[k]});
+    }
+    size_ = 0;
   }
+
+ private:
+  static void answer(const HitStream& hits, std::size_t ray, const Hit& hit) {
+    const bool tie = hit.t == hits.t[ray] && is_lower(hit.id, hits.id[ray]);
+    if (!(hit.t < hits.t[ray] || tie)) return;
+    hits.t[ray] = hit.t;
+    hits.id[ray] = hit.id;
+    hits.slot[ray] = hit.slot;
+  }
+  static void answer(std::uint8_t* occluded, std::size_t ray, const Hit& /*hit*/) {
+    occluded[ray] = 1;
+  }
+
+  const RayStream& rays_;
+  const CapsuleView& capsules_;
+  const Answers& answers_;
+  GatheredRays<width> gathered_;
+  std::size_t ray_[width];
+  std::uint32_t slot_[width];
+  std::size_t size_ = 0;
 };
 
-/// Whether each lane has a hit; one_ray: the same ray is in all of them.
+/// The capsules that may be the nearest hit of a lane, from the hit among the other primitives on.
+template <bool one_ray>
+class NearestCapsules {
+ public:
+  /// `first`: the index of the first lane's ray. `t`: of the hits so far.
+  BOULE_INLINE NearestCapsules(const RayLanes& rays, std::size_t first, const Wide& t,
+                               CapsuleQueue<HitStream>& queue)
+      : first_(first), queue_(queue), reach_(ClosestHit::distance(rays.exact.tmax, rays)) {
+    const Real known = ClosestHit::distance(t, rays);
+    reach_ = select(known < reach_, known, reach_);
+  }
+
+  static constexpr bool ordered = true;
+  static constexpr bool done() { return false; }
+  static constexpr unsigned open(unsigned lanes) { return lanes; }
+  [[nodiscard]] BOULE_INLINE Real limit() const { return reach_; }
+  [[nodiscard]] BOULE_INLINE bool wants(const Real& low, unsigned out) const {
+    return (bits(reach_ < low) | out) != all_lanes;
+  }
+  BOULE_INLINE void consider(const RayLanes& rays, const CapsuleLanes& capsule,
+                             const CapsuleBounds& bounds, const Bits& slot, unsigned out) {
+    if (size_ + width > room) make_room();
+    const RealMask counts = bounds.certain & (rays.filter.live_from < bounds.low) &
+                            ~(rays.exact.source == capsule.id) & (bounds.high < reach_);
+    unsigned in = ~(bits(reach_ < bounds.low) | out) & all_lanes;
+    // Lanes that are out have no reach to lose: `certain` is false there, but for empty slots.
+    reach_ = select(counts, bounds.high, reach_);
+    if (one_ray) reach_ = Real(least_lane(reach_));
+    alignas(64) float low[width];
+    alignas(64) std::uint32_t slots[width];
+    store(low, bounds.low);
+    store(slots, slot);
+    for (; in != 0; in &= in - 1) {
+      const int lane = __builtin_ctz(in);
+      low_[size_] = low[lane];
+      slot_[size_] = slots[lane];
+      lane_[size_] = static_cast<std::uint8_t>(one_ray ? 0 : lane);
+      ++size_;
+    }
+  }
+  /// Hands the candidates that may still be the nearest to the double solver.
+  BOULE_INLINE void finish(unsigned lanes) {
+    keep_wanted();
+    for (std::size_t k = 0; k < size_; ++k)
+      if ((lanes >> lane_[k] & 1U) != 0) queue_.add(first_ + lane_[k], slot_[k]);
+    size_ = 0;
+  }
+
+ private:
+  /// Drops the candidates beyond the reach of their lanes.
+  BOULE_INLINE void keep_wanted() {
+    alignas(64) float reach[width];
+    store(reach, reach_);
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < size_; ++k) {
+      const bool beyond = reach[lane_[k]] < low_[k];
+      low_[kept] = low_[k];
+      slot_[kept] = slot_[k];
+      lane_[kept] = lane_[k];
+      kept += beyond ? 0 : 1;
+    }
+    size_ = kept;
+  }
+  BOULE_NOINLINE void make_room() {
+    keep_wanted();
+    if (size_ + width > room) finish(all_lanes);
+  }
+
+  static constexpr std::size_t room = 8 * width;
+
+  std::size_t first_;
+  CapsuleQueue<HitStream>& queue_;
+  Real reach_;
+  float low_[room];
+  std::uint32_t slot_[room];
+  std::uint8_t lane_[room];
+  std::size_t size_ = 0;
+};
+
+/// Whether a lane hits any capsule; one_ray: the same ray is in all of them.
 template <bool one_ray>
 class AnyCapsule : public AnyHit<one_ray> {
  public:
-  using AnyHit<one_ray>::AnyHit;
+  using AnyHit<one_ray>::hit;
+  using AnyHit<one_ray>::far;
 
-  BOULE_INLINE void meet(const RayLanes& rays, const CapsuleLanes& capsule, const Bits& in_slot,
-                         unsigned /*out*/) {
-    this->offer(solve_robust(rays, capsule), capsule.id, in_slot, rays);
+  BOULE_INLINE AnyCapsule(const RayLanes& rays, std::size_t first, unsigned occluded,
+                          CapsuleQueue<std::uint8_t*>& queue)
+      : AnyHit<one_ray>(rays), first_(first), queue_(queue) {
+    hit = occluded;
   }
+  BOULE_INLINE void consider(const RayLanes& rays, const CapsuleLanes& capsule,
+                             const CapsuleBounds& bounds, const Bits& slot, unsigned out) {
+    const RealMask found = bounds.certain & (rays.filter.live_from < bounds.low) &
+                           (bounds.high <= rays.filter.live_to) &
+                           ~(rays.exact.source == capsule.id);
+    unsigned doubt = ~(bits(far < bounds.low) | out | bits(found)) & all_lanes;
+    hit |= bits(found) & ~out;
+    if (one_ray ? hit != 0 : (doubt & ~hit) == 0) return;
+    alignas(64) std::uint32_t slots[width];
+    store(slots, slot);
+    for (doubt &= one_ray ? all_lanes : ~hit; doubt != 0; doubt &= doubt - 1) {
+      const int lane = __builtin_ctz(doubt);
+      queue_.add(one_ray ? first_ : first_ + static_cast<std::size_t>(lane), slots[lane]);
+    }
+  }
+
+ private:
+  std::size_t first_;
+  CapsuleQueue<std::uint8_t*>& queue_;
 };
 
 /// Calls packet(rays, first, live) for packets with a lane in wanted(first, live), which gives the
@@ -60,40 +199,24 @@ BOULE_INLINE void for_each_packet(const RayStream& rays, Form form, const Wanted
   }
 }
 
-/// The nearest over the lanes, which hold one ray; at equal t, the lower id.
-BOULE_INLINE void store_nearest(const ClosestHit& best, const HitStream& hits, std::size_t index) {
-  alignas(64) double t[width];
-  alignas(64) std::int32_t id[width];
-  alignas(64) std::uint32_t slot[width];
-  store(t, best.t);
-  store(id, best.id);
-  store(slot, best.slot);
-  for (std::size_t lane = 0; lane < width; ++lane) {
-    const bool tie = t[lane] == hits.t[index] && is_lower(id[lane], hits.id[index]);
-    if (!(t[lane] < hits.t[index] || tie)) continue;
-    hits.t[index] = t[lane];
-    hits.id[index] = id[lane];
-    hits.slot[index] = slot[lane];
-  }
-}
-
 }  // namespace
 
 void closest_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
                       const HitStream& hits) {
+  CapsuleQueue<HitStream> queue(rays, capsules, hits);
   for_each_packet(
       rays, form, [](std::size_t, std::size_t live) { return first_lanes(live); },
       [&](const RayLanes& packet, std::size_t first, std::size_t live) {
-        ClosestCapsule best(packet, load(hits.t + first), load_integers(hits.id + first),
-                            load_integers(hits.slot + first));
-        search_capsules<OneForAll>(packet, capsules, best);
-        store_packet(best, hits, first, live);
+        NearestCapsules<false> nearest(packet, first, load(hits.t + first), queue);
+        search_capsules<OneForAll>(packet, capsules, nearest);
+        nearest.finish(first_lanes(live));
       },
       [&](const RayLanes& ray, std::size_t index) {
-        ClosestCapsule best(ray, Wide(hits.t[index]), Bits(hits.id[index]), Bits(hits.slot[index]));
-        search_capsules<OnePerLane>(ray, capsules, best);
-        store_nearest(best, hits, index);
+        NearestCapsules<true> nearest(ray, index, Wide(hits.t[index]), queue);
+        search_capsules<OnePerLane>(ray, capsules, nearest);
+        nearest.finish(all_lanes);
       });
+  queue.finish();
 }
 
 void any_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
@@ -104,19 +227,21 @@ void any_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
       lanes |= (occluded[first + lane] == 0 ? 1U : 0U) << lane;
     return lanes;
   };
+  CapsuleQueue<std::uint8_t*> queue(rays, capsules, occluded);
   for_each_packet(
       rays, form, open,
       [&](const RayLanes& packet, std::size_t first, std::size_t live) {
-        AnyCapsule<false> best(packet);
-        best.hit = ~open(first, live) & all_lanes;
-        search_capsules<OneForAll>(packet, capsules, best);
-        store_packet(best, occluded, first, live);
+        AnyCapsule<false> any(packet, first, ~open(first, live) & all_lanes, queue);
+        search_capsules<OneForAll>(packet, capsules, any);
+        for (std::size_t lane = 0; lane < live; ++lane)
+          occluded[first + lane] |= static_cast<std::uint8_t>(any.hit >> lane & 1U);
       },
       [&](const RayLanes& ray, std::size_t index) {
-        AnyCapsule<true> best(ray);
-        search_capsules<OnePerLane>(ray, capsules, best);
-        occluded[index] = best.hit != 0 ? 1 : 0;
+        AnyCapsule<true> any(ray, index, 0, queue);
+        search_capsules<OnePerLane>(ray, capsules, any);
+        if (any.hit != 0) occluded[index] = 1;
       });
+  queue.finish();
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA

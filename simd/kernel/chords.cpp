@@ -31,9 +31,9 @@ class AllChords {
   [[nodiscard]] BOULE_INLINE bool wants(const Real& low, unsigned out) const {
     return (bits(far_ < low) | out) != all_lanes;
   }
-  BOULE_INLINE void meet(const RayLanes& rays, const CapsuleLanes& capsule, const Bits& slot,
-                         unsigned /*out*/) {
-    const CapsuleRoots line = meet_lines(rays, capsule);
+  BOULE_INLINE void consider(const RayLanes& rays, const CapsuleLanes& capsule,
+                             const CapsuleBounds& /*bounds*/, const Bits& slot, unsigned /*out*/) {
+    const CapsuleRoots line = meet_lines(rays.exact, capsule);
     add(rays.exact, line.enter, line.leave, line.met, capsule.id, slot);
   }
 

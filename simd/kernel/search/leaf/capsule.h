@@ -5,8 +5,8 @@
 #include "simd/kernel/search/leaf/ray_lanes.h"
 #include "simd/kernel/search/leaf/sphere.h"
 
-/// Ray against capsule, lane by lane: a conservative reject in float, and the solver in double, as
-/// core/reference.cpp does it, bit for bit. docs/numerics.md derives the bound of the reject.
+/// Ray against capsule, lane by lane: certain knowledge in float, and the solver in double, as
+/// core/reference.cpp does it, bit for bit. docs/numerics.md derives the bounds.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Capsules in lanes: the same one in all, for a packet, or W, for a single ray.
@@ -15,6 +15,24 @@ struct CapsuleLanes {
   Real radius;
   Bits id;
 };
+
+/// The capsules in W slots.
+BOULE_INLINE CapsuleLanes gather_capsules(const CapsuleView& capsules, const std::uint32_t* slots) {
+  alignas(64) float numbers[7][width];
+  alignas(64) std::int32_t id[width];
+  for (int lane = 0; lane < width; ++lane) {
+    const CapsuleBlock& block = capsules.blocks[slots[lane] / bvh_leaf_size];
+    const std::size_t k = slots[lane] % bvh_leaf_size;
+    const float* const rows[] = {block.a_x, block.a_y, block.a_z,   block.b_x,
+                                 block.b_y, block.b_z, block.radius};
+    for (int i = 0; i < 7; ++i) numbers[i][lane] = rows[i][k];
+    id[lane] = capsules.id[slots[lane]];
+  }
+  return {{load(numbers[0]), load(numbers[1]), load(numbers[2])},
+          {load(numbers[3]), load(numbers[4]), load(numbers[5])},
+          load(numbers[6]),
+          load_integers(id)};
+}
 
 /// The capsules of a block, step by step.
 template <class Access>
@@ -35,6 +53,9 @@ struct BlockCapsules {
   }
 };
 
+/// The fraction of the radius by which a capsule that is certainly hit may be too large.
+inline constexpr auto shrinking = static_cast<float>(filter::slack_on_the_spot * filter::u);
+
 /// A number in lanes moved to the range 0 .. 1; NaN becomes 0.
 template <class Number>
 BOULE_INLINE Number on_segment(const Number& s) {
@@ -42,13 +63,14 @@ BOULE_INLINE Number on_segment(const Number& s) {
   return select(zero < s, select(s < one, s, one), zero);
 }
 
-/// Lanes that certainly miss, and a lower bound of the t |dir| of hits in the others.
+/// The certain knowledge of float about capsules: lanes that miss; lanes whose line hits; and
+/// bounds of the t |dir| at which such a line enters. NaN decides nothing.
 struct CapsuleBounds {
-  RealMask out;
-  Real low;
+  RealMask out, certain;
+  Real low, high;
 };
 
-/// The distance of a ray's line from the segment, in float. NaN passes.
+/// From the distance of the ray's line from the segment.
 BOULE_INLINE CapsuleBounds bound_capsule(const FilterRays& rays, const CapsuleLanes& capsule) {
   const Vec3<Real> f = capsule.a - rays.org, u = capsule.b - capsule.a;
   const Vec3<Real>& d = rays.unit;
@@ -56,15 +78,25 @@ BOULE_INLINE CapsuleBounds bound_capsule(const FilterRays& rays, const CapsuleLa
     return Vec3<Real>{filter_fnma(along, d.x, w.x), filter_fnma(along, d.y, w.y),
                       filter_fnma(along, d.z, w.z)};
   };
-  const Real b = filter_dot(f, d), e = filter_dot(u, d);
+  const Real zero(0.0F), b = filter_dot(f, d), e = filter_dot(u, d);
   const Vec3<Real> l = across(f, b), v = across(u, e);
-  const Real s = on_segment((Real(0.0F) - filter_dot(l, v)) / filter_dot(v, v));
-  const Vec3<Real> nearest{filter_fma(v.x, s, l.x), filter_fma(v.y, s, l.y),
+  const Real vv = filter_dot(v, v), inverse_vv = Real(1.0F) / vv;
+  const Real nearest = (zero - filter_dot(l, v)) * inverse_vv, s = on_segment(nearest);
+  const Vec3<Real> closest{filter_fma(v.x, s, l.x), filter_fma(v.y, s, l.y),
                            filter_fma(v.z, s, l.z)};
+  const Real square = filter_dot(closest, closest);
   const Real error = filter_fma(Real(static_cast<float>(filter::capsule * filter::u)),
                                 sum_abs(f) + sum_abs(u), rays.origin_error);
   const Real grown = grown_on_the_spot(capsule.radius) + error;
-  return {grown * grown < filter_dot(nearest, nearest), filter_min(b, b + e) - grown};
+  const Real shrunk =
+      filter_fnma(abs(capsule.radius), Real(shrinking), abs(capsule.radius)) - error;
+  // The ball that is entered first is hit: the part of the segment near the line.
+  const Real part = grown * sqrt(vv) * inverse_vv;
+  const Real one(1.0F);  // NaN, where v is 0, becomes the end of the segment that comes first
+  const Real first =
+      select(e < zero, one - on_segment(one - (nearest + part)), on_segment(nearest - part));
+  return {grown * grown < square, (zero < shrunk) & (square < shrunk * shrunk),
+          filter_fma(e, first, b) - grown, filter_fma(e, s, b) + error};
 }
 
 /// Where lines enter and leave capsules, in the lanes that are met.
@@ -96,8 +128,7 @@ struct Balls {
 };
 
 /// Solver robust, in double, never fused. core/reference.cpp derives the formula.
-BOULE_INLINE CapsuleRoots meet_lines(const RayLanes& lanes, const CapsuleLanes& capsule) {
-  const ExactRays& rays = lanes.exact;
+BOULE_INLINE CapsuleRoots meet_lines(const ExactRays& rays, const CapsuleLanes& capsule) {
   const Wide zero(0.0), r = widen(capsule.radius);
   const Vec3<Wide> a = widen(capsule.a);
   const Balls balls{rays, a - rays.org, widen(capsule.b) - a, r * r};
@@ -111,7 +142,7 @@ BOULE_INLINE CapsuleRoots meet_lines(const RayLanes& lanes, const CapsuleLanes& 
   const Vec3<Wide> closest = l + v * on_segment(nearest), off_axis = l + v * nearest;
   const Wide found = balls.rr - dot(off_axis, off_axis);
   const Wide h = sqrt(select(found < zero, zero, found));
-  const Wide size = sqrt(dot(balls.u, balls.u) * vv) * lanes.filter.length;
+  const Wide size = sqrt(dot(balls.u, balls.u) * vv) * sqrt(rays.a);
   const Wide lean = select(slanted, h * along / size, copysign(Wide(no_hit), along));
 
   CapsuleRoots roots;
@@ -128,9 +159,9 @@ BOULE_INLINE CapsuleRoots meet_lines(const RayLanes& lanes, const CapsuleLanes& 
   return roots;
 }
 
-BOULE_INLINE Roots solve_robust(const RayLanes& rays, const CapsuleLanes& capsule) {
+BOULE_INLINE Roots solve_robust(const ExactRays& rays, const CapsuleLanes& capsule) {
   const CapsuleRoots line = meet_lines(rays, capsule);
-  Roots roots = first_in_range(line.enter, line.leave, rays.exact);
+  Roots roots = first_in_range(line.enter, line.leave, rays);
   roots.hit = roots.hit & line.met;
   return roots;
 }
