@@ -125,8 +125,8 @@ inline constexpr float bundle_across = 1;
 /// the double solver.
 inline constexpr float bundle_far = 1e15F;
 
-/// A capsule grows by this, times u and the sum of the absolute coordinates of A - o and B - A, for
-/// the rounding of its distance from a line in float.
+/// The distance of a line from a capsule's segment is wrong by less than this, times u and the sum
+/// of the absolute coordinates of A - o and B - A. 21 are needed, and for a bound of roots 28.
 inline constexpr double capsule = 32;
 
 }  // namespace boule::filter

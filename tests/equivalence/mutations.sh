@@ -71,13 +71,16 @@ bundle_end 0
 bundle_width 100
 bundle_across 1e9
 bundle_far 1e38
+capsule 0
 BOUNDS
 
 # breaks NAME FILE SCRIPT: BROKEN stands for whether the program is this mutant.
 breaks() {
   local broken="broken_$(wc -l <"$build/mutants")"
-  change "simd/kernel/search/$2" "${3//BROKEN/filter::$broken}"
-  change "simd/kernel/search/$2" '0,/^#include/s//#include "simd\/abi\/filter_bounds.h"\n#include/'
+  local file
+  file="$(cd "$copy" && ls simd/kernel/search/*/"$2")"
+  change "$file" "${3//BROKEN/filter::$broken}"
+  change "$file" '0,/^#include/s//#include "simd\/abi\/filter_bounds.h"\n#include/'
   change "$bounds" "s/^}  \/\/ namespace/inline const bool $broken = is_mutant(\"$1\");\n&/"
   echo "$1" >>"$build/mutants"
 }
@@ -109,6 +112,12 @@ breaks "rays of sets never meet the sphere that they leave inside" ray_sets.h \
   's/again = own & uniform\(ray\.inside\)/again = own \& uniform(!BROKEN \&\& ray.inside)/'
 breaks "a set never makes room for candidates" set_candidates.h \
   's/return size_ > most;/return !BROKEN \&\& size_ > most;/'
+breaks "boxes of a leaf's capsules lack their radius" capsule_search.h \
+  's/const Real r = (abs\(load\(block\.radius \+ at\)\) \* outward);/const Real r = BROKEN ? Real(0.0F) : \1;/'
+breaks "rays that leave a capsule inside do not meet it" capsule.h \
+  's/\(leaves & rays\.inside\) \|/(leaves \& rays.inside \& widen(uniform(!BROKEN))) |/'
+breaks "a capsule is entered where the line is nearest" capsule.h \
+  's/(balls\.meet\(on_segment\(nearest - )lean/\1(BROKEN ? Wide(0.0) : lean)/'
 
 # ---- Judged by the tests -----------------------------------------------------------------------
 
