@@ -5,12 +5,12 @@
 #include "bench/balls.h"
 #include "bench/hard_scenes.h"
 #include "bench/particle_scenes.h"
+#include "bench/stick_scenes.h"
 #include "bench/uniform_spheres.h"
 
 namespace boule::bench {
 namespace {
 
-constexpr int most_random = 10'000'000;
 constexpr int deepest_flake = 6;
 
 BenchScene random_scene(const std::string& name, int n) {
@@ -46,13 +46,14 @@ Result<BenchScene> make_scene(const std::string& name) {
     return flake_scene(name, *depth);
   }
   if (auto scene = make_particle_scene(name)) return *std::move(scene);
+  if (auto scene = make_stick_scene(name)) return *std::move(scene);
   if (auto scene = make_hard_scene(name, random_scene("u1000", 1000))) return *std::move(scene);
   std::string others;
   for (const std::string& hard : hard_scene_names()) others += ", " + hard;
   return Diagnostic::of(
       "no scene " + quote(name) +
-      ", expected uN, N from 1 to 10000000, flakeD, D from 0 to 6, proteinN, groundN, "
-      "grainsN, ringN or slabN, N from 10 to 10000000" +
+      ", expected uN or cellN, N from 1 to 10000000, flakeD, D from 0 to 6, proteinN, groundN, "
+      "grainsN, ringN or slabN, N from 10 to 10000000, sticksN, N from 24 to 1000000" +
       others);
 }
 

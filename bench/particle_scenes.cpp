@@ -27,12 +27,18 @@ Vec3d point_in_ball(std::size_t item, std::uint32_t seed) {
   return Vec3d{across * std::cos(2 * pi * u[1]), across * std::sin(2 * pi * u[1]), z} * r;
 }
 
-/// A tenth of an atom per cubic angstrom, as in proteins; radii of H, C, N, O by their shares.
+/// The radius in angstrom of a ball of so many atoms, a tenth of one per cubic angstrom as in
+/// proteins.
+double globule_radius(std::size_t n) {
+  constexpr double density = 0.1;
+  return std::cbrt(3 * static_cast<double>(n) / (4 * pi * density));
+}
+
+/// Radii of H, C, N, O by their shares.
 std::vector<Sphere> protein(std::size_t n) {
   constexpr std::size_t domains = 24;
-  constexpr double density = 0.1;
-  const double whole = std::cbrt(3 * static_cast<double>(n) / (4 * pi * density));
-  const double domain = whole / std::cbrt(double{domains}), unit = 1 / (3 * whole);
+  const double whole = globule_radius(n), unit = protein_angstrom(n);
+  const double domain = whole / std::cbrt(double{domains});
   std::vector<Sphere> spheres(n);
   for (std::size_t i = 0; i < n; ++i) {
     const Vec3d middle = point_in_ball(i % domains, 21) * whole;
@@ -120,6 +126,8 @@ constexpr Kind kinds[] = {
 };
 
 }  // namespace
+
+double protein_angstrom(std::size_t n) { return 1 / (3 * globule_radius(n)); }
 
 std::optional<BenchScene> make_particle_scene(const std::string& name) {
   for (const Kind& kind : kinds) {

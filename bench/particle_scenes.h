@@ -1,11 +1,15 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
 #include "bench/bench_scenes.h"
 
 namespace boule::bench {
+
+/// The length of an angstrom in the scene proteinN.
+double protein_angstrom(std::size_t n);
 
 /// Scenes of the kinds that people draw, each about 1 in size, N a number:
 ///   proteinN  N atoms that overlap, in a lumpy globule of 24 domains

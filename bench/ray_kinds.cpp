@@ -121,7 +121,9 @@ RayBuffer make_rays(RayKind kind, const BenchScene& scene, const PrimaryRays& pr
   const std::vector<Hit>& hits = *primary.hits;
   for (std::size_t i = 0; i < hits.size(); ++i) {
     if (hits[i].id == no_primitive) continue;
-    const Surface surface = find_surface(scene.spheres, {}, primary.rays->get(i), hits[i]);
+    const Ray ray = primary.rays->get(i);
+    const Surface surface = with_primitive(
+        scene, hits[i].id, [&](const auto& met) { return find_surface(met, ray, hits[i]); });
     add_ray(kind, scene, surface, static_cast<std::uint32_t>(i), rays);
   }
   return to_buffer(rays);

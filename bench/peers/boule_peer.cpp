@@ -70,7 +70,9 @@ class BouleContender final : public Contender {
 }  // namespace
 
 BoulePeer::BoulePeer(const BenchScene& scene, std::vector<std::string> isas)
-    : geometry_(scene.spheres, {}), isas_(std::move(isas)) {}
+    : geometry_(scene.spheres, {}), isas_(std::move(isas)) {
+  if (!scene.capsules.empty()) geometry_.add_capsules(scene.capsules);
+}
 
 std::vector<std::unique_ptr<Contender>> BoulePeer::contenders(const Workload& workload) {
   hits_.resize(workload.rays->size());

@@ -1,7 +1,6 @@
 #include "bench/peers/double_tree.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
@@ -12,10 +11,32 @@ namespace {
 
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr std::uint32_t leaf_size = 4;
-constexpr int stack_size = 64;  // halves: 2^31 spheres are 31 deep
+constexpr int stack_size = 64;  // halves: 2^31 primitives are 31 deep
 
 double component(const Vec3f& v, int axis) {
   return static_cast<double>(axis == 0 ? v.x : axis == 1 ? v.y : v.z);
+}
+
+/// Where a primitive lies along an axis.
+struct Extent {
+  double min, max;
+};
+Extent extent(const Sphere& sphere, int axis) {
+  const double center = component(sphere.center, axis), radius{sphere.radius};
+  return {center - radius, center + radius};
+}
+Extent extent(const Capsule& capsule, int axis) {
+  const double a = component(capsule.a, axis), b = component(capsule.b, axis);
+  const double radius{capsule.radius};
+  return {std::min(a, b) - radius, std::max(a, b) + radius};
+}
+Extent extent(const BenchScene& scene, std::int32_t id, int axis) {
+  return with_primitive(scene, id, [&](const auto& one) { return extent(one, axis); });
+}
+
+double intersect(const BenchScene& scene, std::int32_t id, const Ray& ray) {
+  return with_primitive(
+      scene, id, [&](const auto& one) { return reference::intersect(ray, one, id == ray.source); });
 }
 
 /// A ray as box tests see it.
@@ -48,18 +69,19 @@ double entry(const BoxRay& ray, const Node& node, double limit) {
 
 }  // namespace
 
-DoubleTree::DoubleTree(std::span<const Sphere> spheres) : spheres_(spheres) {
-  order_.resize(spheres.size());
+DoubleTree::DoubleTree(const BenchScene& scene) : scene_(scene) {
+  order_.resize(scene.spheres.size() + scene.capsules.size());
   std::iota(order_.begin(), order_.end(), 0);
   double size = 0;
-  for (const Sphere& s : spheres) {
+  for (const std::int32_t id : order_) {
     for (int axis = 0; axis < 3; ++axis) {
-      size = std::max(size, std::fabs(component(s.center, axis)) + double{s.radius});
+      const auto [min, max] = extent(scene, id, axis);
+      size = std::max({size, -min, max});
     }
   }
   margin_ = 1e-9 * size;
   nodes_.emplace_back();
-  build(0, 0, static_cast<std::uint32_t>(spheres.size()));
+  build(0, 0, static_cast<std::uint32_t>(order_.size()));
 }
 
 void DoubleTree::set_box(Node& node, std::uint32_t first, std::uint32_t count) const {
@@ -67,15 +89,14 @@ void DoubleTree::set_box(Node& node, std::uint32_t first, std::uint32_t count) c
     node.min[axis] = inf;
     node.max[axis] = -inf;
     for (std::uint32_t i = first; i < first + count; ++i) {
-      const Sphere& s = spheres_[static_cast<std::size_t>(order_[i])];
-      const double c = component(s.center, axis), r = double{s.radius} + margin_;
-      node.min[axis] = std::min(node.min[axis], c - r);
-      node.max[axis] = std::max(node.max[axis], c + r);
+      const auto [min, max] = extent(scene_, order_[i], axis);
+      node.min[axis] = std::min(node.min[axis], min - margin_);
+      node.max[axis] = std::max(node.max[axis], max + margin_);
     }
   }
 }
 
-/// Halves the spheres at the median centre along the box's longest side.
+/// Halves the primitives at the median centre along the box's longest side.
 void DoubleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t count) {
   set_box(nodes_[node], first, count);
   nodes_[node].first = first;
@@ -88,9 +109,12 @@ void DoubleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t co
   }
   const std::uint32_t half = count / 2;
   const auto begin = order_.begin() + first;
+  const auto twice_center = [&](std::int32_t id) {
+    const auto [min, max] = extent(scene_, id, axis);
+    return min + max;
+  };
   std::nth_element(begin, begin + half, begin + count, [&](std::int32_t a, std::int32_t b) {
-    return component(spheres_[static_cast<std::size_t>(a)].center, axis) <
-           component(spheres_[static_cast<std::size_t>(b)].center, axis);
+    return twice_center(a) < twice_center(b);
   });
   const auto child = static_cast<std::uint32_t>(nodes_.size());
   nodes_[node].first = child;
@@ -100,7 +124,7 @@ void DoubleTree::build(std::uint32_t node, std::uint32_t first, std::uint32_t co
   build(child + 1, first + half, count - half);
 }
 
-/// Calls visit(id) for the spheres of the leaves that the ray enters before `limit`, which visit
+/// Calls visit(id) for the primitives of the leaves that the ray enters before `limit`, which visit
 /// may lower, roughly in the ray's order; until visit returns true.
 template <class Visit>
 void DoubleTree::traverse(const Ray& ray, const double& limit, const Visit& visit) const {
@@ -134,8 +158,7 @@ Hit DoubleTree::closest_hit(const Ray& ray) const {
   nearest.t = double{ray.tmax};
   const double& limit = nearest.t;
   traverse(ray, limit, [&](std::int32_t id) {
-    const double t =
-        reference::intersect(ray, spheres_[static_cast<std::size_t>(id)], id == ray.source);
+    const double t = intersect(scene_, id, ray);
     const bool tie = t == nearest.t && (nearest.id == no_primitive || id < nearest.id);
     if (t < inf && (t < nearest.t || tie)) nearest = {t, id};
     return false;
@@ -147,8 +170,7 @@ bool DoubleTree::any_hit(const Ray& ray) const {
   bool hit = false;
   const double limit{ray.tmax};
   traverse(ray, limit, [&](std::int32_t id) {
-    const Sphere& sphere = spheres_[static_cast<std::size_t>(id)];
-    hit = reference::intersect(ray, sphere, id == ray.source) < inf;
+    hit = intersect(scene_, id, ray) < inf;
     return hit;
   });
   return hit;

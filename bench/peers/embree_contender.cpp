@@ -174,11 +174,14 @@ void EmbreeContender::answer(Answers& answers) const {
     for (std::size_t i = 0; i < size; ++i) answers.occluded[i] = get(i, tfar_field) < 0 ? 1 : 0;
     return;
   }
-  answers.hits.resize(size);
+  answers.hits.assign(size, {});
   for (std::size_t i = 0; i < size; ++i) {
-    const auto id = std::bit_cast<std::int32_t>(get(i, prim_id_field));
-    const double t = ray_t(workload_.rays->get(i), double{get(i, tfar_field)});
-    answers.hits[i] = id == no_primitive ? Hit{} : Hit{t, id};
+    const auto geometry = std::bit_cast<std::uint32_t>(get(i, geom_id_field));
+    if (geometry == RTC_INVALID_GEOMETRY_ID) continue;
+    const std::size_t before = geometry == 0 ? 0 : workload_.scene->spheres.size();
+    const auto id = std::bit_cast<std::uint32_t>(get(i, prim_id_field)) + before;
+    answers.hits[i] = {ray_t(workload_.rays->get(i), double{get(i, tfar_field)}),
+                       static_cast<std::int32_t>(id)};
   }
 }
 

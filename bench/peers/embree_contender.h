@@ -41,7 +41,8 @@ class EmbreeContender final : public Contender {
 
 /// A ray as Embree takes it: float origin, unit float direction. Embree cannot be told which
 /// surface a ray leaves, so secondary rays begin 1e-5 from their origin. The scenes have size 1, so
-/// that is 170 u, and the radius of the smallest spheres is 70 times as large.
+/// that is 170 u, and the radius of the smallest spheres is 70 times as large, that of the thinnest
+/// capsules 37 times.
 struct EmbreeRay {
   float org[3], tnear, dir[3], tfar;
 };

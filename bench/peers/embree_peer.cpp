@@ -16,6 +16,15 @@ void bounds(const RTCBoundsFunctionArguments* args) {
   *args->bounds_o = {s.x - r, s.y - r, s.z - r, 0, s.x + r, s.y + r, s.z + r, 0};
 }
 
+/// A vertex of Embree's spheres and curves.
+struct Ball {
+  float x, y, z, radius;
+};
+Ball* new_vertices(RTCGeometry geometry, std::size_t count) {
+  return static_cast<Ball*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                    RTC_FORMAT_FLOAT4, sizeof(Ball), count));
+}
+
 struct Mode {
   const char* name;
   EmbreeCall call;
@@ -71,28 +80,39 @@ EmbreePeer::~EmbreePeer() {
   rtcReleaseDevice(device_);
 }
 
-RTCScene EmbreePeer::build(RTCGeometry geometry) const {
+/// The spheres are geometry 0, and the capsules 1.
+RTCScene EmbreePeer::build(RTCGeometry spheres) const {
   const RTCScene scene = rtcNewScene(device_);
   rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_HIGH);
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(scene, geometry);
-  rtcReleaseGeometry(geometry);
+  const auto attach = [scene](RTCGeometry geometry) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+  };
+  attach(spheres);
+  if (!scene_.capsules.empty()) attach(curves());
   rtcCommitScene(scene);
   return scene;
 }
 
 RTCGeometry EmbreePeer::builtin_geometry() const {
   const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_SPHERE_POINT);
-  auto* const data = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
-                              4 * sizeof(float), scene_.spheres.size()));
-  for (std::size_t i = 0; i < scene_.spheres.size(); ++i) {
-    const Sphere& s = scene_.spheres[i];
-    data[4 * i] = s.center.x;
-    data[4 * i + 1] = s.center.y;
-    data[4 * i + 2] = s.center.z;
-    data[4 * i + 3] = s.radius;
+  Ball* next = new_vertices(geometry, scene_.spheres.size());
+  for (const Sphere& s : scene_.spheres) *next++ = {s.center.x, s.center.y, s.center.z, s.radius};
+  return geometry;
+}
+
+/// One segment for each capsule, without neighbours: both of its ends are round.
+RTCGeometry EmbreePeer::curves() const {
+  const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+  const std::size_t size = scene_.capsules.size();
+  Ball* next = new_vertices(geometry, 2 * size);
+  for (const Capsule& c : scene_.capsules) {
+    for (const Vec3f& end : {c.a, c.b}) *next++ = {end.x, end.y, end.z, c.radius};
   }
+  auto* const first = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, sizeof(unsigned), size));
+  for (unsigned i = 0; i < size; ++i) first[i] = 2 * i;
   return geometry;
 }
 

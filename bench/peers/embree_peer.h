@@ -14,8 +14,9 @@
 namespace boule::bench {
 
 /// Embree on one scene, in its best form: its own spheres ("builtin") and user geometry with our
-/// callbacks ("user"), each asked for 1, 4, 8, 16 rays and for a stream ("1M") at a time. Primary
-/// rays are declared coherent, diffuse ones incoherent, the others both ("-incoherent").
+/// callbacks ("user"), capsules as its own round linear curves beside either, each asked for 1, 4,
+/// 8, 16 rays and for a stream ("1M") at a time. Primary rays are declared coherent, diffuse ones
+/// incoherent, the others both ("-incoherent").
 ///
 /// In Embree's favour: its structures of rays are filled, and tfar and the ids reset, outside the
 /// timed part; directions are of unit length, so that the callback need not divide; denormals are
@@ -34,9 +35,10 @@ class EmbreePeer {
   std::vector<std::unique_ptr<Contender>> contenders(const Workload& workload);
 
  private:
-  RTCScene build(RTCGeometry geometry) const;
+  RTCScene build(RTCGeometry spheres) const;
   RTCGeometry builtin_geometry() const;
   RTCGeometry user_geometry();
+  RTCGeometry curves() const;
 
   const BenchScene& scene_;
   RTCDevice device_;

@@ -28,8 +28,10 @@ bool same_in_float(const BenchScene& scene, const Ray& ray, const Hit& hit, cons
   if (hit.id == no_primitive || truth.id == no_primitive) return hit.id == truth.id;
   if (!same_distance(ray, hit.t, truth.t)) return false;
   if (hit.id == truth.id) return true;
-  const Sphere& other = scene.spheres[static_cast<std::size_t>(hit.id)];
-  return same_distance(ray, reference::intersect(ray, other, hit.id == ray.source), truth.t);
+  const double other = with_primitive(scene, hit.id, [&](const auto& primitive) {
+    return reference::intersect(ray, primitive, hit.id == ray.source);
+  });
+  return same_distance(ray, other, truth.t);
 }
 
 Judge::Judge(const Workload& workload, const DoubleTree& tree, const ParallelFor& parallel_for)
@@ -53,14 +55,16 @@ std::size_t Judge::differ_from_reference(std::size_t samples,
                                          const ParallelFor& parallel_for) const {
   const std::size_t size = workload_.rays->size();
   const std::vector<Sphere>& spheres = workload_.scene->spheres;
+  const std::vector<Capsule>& capsules = workload_.scene->capsules;
   std::atomic<std::size_t> differ = 0;
   samples = std::min(samples, size);
   parallel_for(samples, [&](std::size_t sample) {
     const std::size_t i = sample * size / samples;
     const Ray ray = workload_.rays->get(i);
-    const bool same = asks_any(workload_.kind)
-                          ? reference::any_hit(ray, spheres, {}) == (truth_.occluded[i] != 0)
-                          : same_bits(reference::closest_hit(ray, spheres, {}), truth_.hits[i]);
+    const bool same =
+        asks_any(workload_.kind)
+            ? reference::any_hit(ray, spheres, {}, capsules) == (truth_.occluded[i] != 0)
+            : same_bits(reference::closest_hit(ray, spheres, {}, capsules), truth_.hits[i]);
     if (!same) ++differ;
   });
   return differ;

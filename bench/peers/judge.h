@@ -11,13 +11,14 @@
 namespace boule::bench {
 
 /// Whether a hit found in float is the truth: both misses, or t off by no more than 1e-4 of itself
-/// or 1e-5 |dir| (the scenes are of size 1); another sphere is right if it is met within that too.
+/// or 1e-5 |dir| (the scenes are of size 1); another primitive is right if it is met within that
+/// too.
 bool same_in_float(const BenchScene& scene, const Ray& ray, const Hit& hit, const Hit& truth);
 
 /// Knows the right answers of a workload and counts those that differ.
 class Judge {
  public:
-  /// Finds the truth of a workload by `tree`, which must hold the scene's spheres and outlive the
+  /// Finds the truth of a workload by `tree`, which must hold the scene and outlive the
   /// judge, as must the workload's rays.
   Judge(const Workload& workload, const DoubleTree& tree, const ParallelFor& parallel_for);
 

@@ -12,8 +12,8 @@ namespace boule::bench {
 
 #ifdef BOULE_HAS_MPFR
 
-/// The nearest of all spheres, exactly; equal t: the lower id. The sphere that a ray leaves on its
-/// outside is none of them.
+/// The nearest of all primitives, exactly; equal t: the lower id. The one that a ray leaves on its
+/// outside, which is convex, is none of them.
 const Hit& OracleJudge::nearest(std::size_t index) {
   const auto [entry, is_new] = nearest_.try_emplace(index);
   Hit& nearest = entry->second;
@@ -22,8 +22,9 @@ const Hit& OracleJudge::nearest(std::size_t index) {
   std::optional<test::BigFloat> nearest_t;
   tree_.for_each_candidate(ray, [&](std::int32_t id) {
     if (id == ray.source && !ray.inside) return;
-    const Sphere& sphere = workload_.scene->spheres[static_cast<std::size_t>(id)];
-    const auto hit = test::oracle_hit(ray, sphere);
+    const auto hit = with_primitive(*workload_.scene, id, [&](const auto& primitive) {
+      return test::oracle_hit(ray, primitive);
+    });
     if (!hit) return;
     const bool closer = !nearest_t || hit->t < *nearest_t;
     const bool tie = !closer && hit->t <= *nearest_t && id < nearest.id;

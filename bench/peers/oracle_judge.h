@@ -20,7 +20,7 @@ struct OracleVerdict {
 /// that error as well.
 class OracleJudge {
  public:
-  /// `tree` holds the scene's spheres; all must outlive the judge.
+  /// `tree` holds the scene; all must outlive the judge.
   OracleJudge(const Workload& workload, const DoubleTree& tree)
       : workload_(workload), tree_(tree) {}
 

@@ -16,12 +16,12 @@ namespace {
 
 using nlohmann::json;
 
-json run_referee(const std::string& rays) {
+json run_referee(const std::string& scenes, const std::string& rays) {
   const TempDir folder;
   const std::string file = (folder.path() / "peers.json").string();
   const ProgramRun run = run_program(
       BOULE_BENCH_PEERS,
-      {{"--scenes", "u1000", "--rays", rays, "--reps", "1", "--size", "96", "--json", file}, {}});
+      {{"--scenes", scenes, "--rays", rays, "--reps", "1", "--size", "96", "--json", file}, {}});
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
   std::ifstream stream(file);
   return json::parse(stream);
@@ -39,7 +39,8 @@ void expect_sound(const json& row) {
 }
 
 TEST(Peers, AnswerEveryKindOfRays) {
-  const json report = run_referee("primary,shadow,mirror,diffuse,light,ambient,orthographic,chord");
+  const json report =
+      run_referee("u1000", "primary,shadow,mirror,diffuse,light,ambient,orthographic,chord");
   ASSERT_EQ(report["checks"].size(), 8U);
   for (const json& check : report["checks"]) {
     EXPECT_EQ(check["truth_mismatches"], 0) << check;
@@ -57,6 +58,14 @@ TEST(Peers, AnswerEveryKindOfRays) {
     }
   }
   EXPECT_FALSE(report["machine"]["cpu"].get<std::string>().empty());
+}
+
+/// Balls and sticks, spheres in a cell: scanned capsules and a tree of them.
+TEST(Peers, MeetCapsules) {
+  const json report = run_referee("sticks24,sticks1000,cell100", "primary,shadow,mirror,diffuse");
+  ASSERT_EQ(report["checks"].size(), 12U);
+  for (const json& check : report["checks"]) EXPECT_EQ(check["truth_mismatches"], 0) << check;
+  for (const json& row : report["rows"]) expect_sound(row);
 }
 
 /// Every program that is installed makes the same picture, and all of them are timed.
@@ -96,7 +105,8 @@ TEST(Peers, SayWhoIsNotInstalled) {
 }
 
 TEST(Peers, RefuseWhatTheyDoNotKnow) {
-  for (const char* option : {"--scenes=cornell", "--rays=tertiary", "--isa=avx1024", "--reps=0"}) {
+  for (const char* option : {"--scenes=cornell", "--scenes=sticks23", "--scenes=cell0",
+                             "--rays=tertiary", "--isa=avx1024", "--reps=0"}) {
     const ProgramRun run = run_program(BOULE_BENCH_PEERS, {{option, "--size", "8"}, {}});
     EXPECT_EQ(run.exit_code, 2) << option;
     EXPECT_FALSE(run.err.empty()) << option;

@@ -161,7 +161,7 @@ class Arena {
   Arena(const RefereeSettings& settings, BenchScene scene)
       : settings_(settings),
         scene_(std::move(scene)),
-        tree_(scene_.spheres),
+        tree_(scene_),
         boule_(scene_, settings.isas),
         primary_(primary_rays(scene_, settings.side)),
         primary_judge_({&scene_, RayKind::primary, &primary_}, tree_, parallel_for_) {
@@ -184,8 +184,9 @@ class Arena {
 
  private:
   std::vector<Row> compare(const Workload& workload, const Judge& judge, Check& check) {
-    const std::size_t samples = std::min(
-        {reference_samples, most_reference_tests / scene_.spheres.size(), workload.rays->size()});
+    const std::size_t primitives = scene_.spheres.size() + scene_.capsules.size();
+    const std::size_t samples =
+        std::min({reference_samples, most_reference_tests / primitives, workload.rays->size()});
     check = {scene_.name, name_of(workload.kind), workload.rays->size(), samples,
              judge.differ_from_reference(samples, parallel_for_)};
     const std::vector<std::string> isas = embree_isas();

@@ -52,7 +52,7 @@ struct Results {
   std::vector<Row> rows;
 };
 
-/// Rays that the reference answers of every workload: fewer where there are millions of spheres.
+/// Rays that the reference answers of every workload: fewer where there are millions of primitives.
 inline constexpr std::size_t reference_samples = 4096;
 inline constexpr std::size_t most_reference_tests = 2'000'000'000;
 
