@@ -25,11 +25,13 @@ std::vector<std::string> code_blocks(const std::string& markdown, const std::str
   return blocks;
 }
 
-/// What `np.save` writes for float32 rows of three, two of them.
-std::string two_centers() {
-  std::string dict = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }";
+/// What `np.save` writes for two float32 rows of so many zeros.
+std::string two_rows(std::size_t columns) {
+  std::string dict =
+      "{'descr': '<f4', 'fortran_order': False, 'shape': (2, " + std::to_string(columns) + "), }";
   dict.resize(117, ' ');
-  return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + dict + '\n' + std::string(24, '\0');
+  return std::string("\x93NUMPY\x01\x00\x76\x00", 10) + dict + '\n' +
+         std::string(2 * columns * sizeof(float), '\0');
 }
 
 /// Where the format is described.
@@ -39,7 +41,8 @@ std::filesystem::path scene_format() { return documents_folder() / "scene_format
 class DocumentFolder {
  public:
   DocumentFolder() {
-    write("cloud.npy", two_centers());
+    write("cloud.npy", two_rows(3));
+    write("bonds.npy", two_rows(6));
     write("water.xyz", code_blocks(read_bytes(scene_format()), "text").front());
     for (const char* name :
          {"sphereflake.npy", "barrel.exr", "sky.exr", "double_gauss_50mm.lens"}) {
@@ -117,6 +120,8 @@ TEST(Documents, NameEveryKeyOfTheReader) {
                             "[[particles]]",
                             "[[particles]]\n[particles.color]",
                             "[[plane]]",
+                            "[[capsule]]",
+                            "[[capsules]]",
                             "[[instance]]",
                             "[group.a]",
                             "[[camera.key]]"}) {

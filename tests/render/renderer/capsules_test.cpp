@@ -94,7 +94,7 @@ Vec3d nearest_on(const Capsule& capsule, const Vec3d& point) {
 
 /// Every hit of a capsule lies at its radius from the segment, with the normal of the nearest
 /// point.
-TEST(Capsules, HitsLieAtTheRadiusFromTheSegment) {
+TEST(Capsules, HitsLieARadiusOffTheSegment) {
   const Scene scene = capsule_scene(width, height);
   Tracer tracer = Tracer::create(scene).value();
   EXPECT_EQ(tracer.primitives(), 3U + 2 + scene.capsules.size());

@@ -319,7 +319,7 @@ SphereExtent extent_of_rows(const NpyPrimitives<Primitive>& request,
   std::mutex mutex;
   const auto take = [&](const unsigned char* rows, std::size_t, std::size_t count) -> Status {
     const SphereExtent some =
-        extent_of(count, serial_for, [&](std::size_t i, SphereExtent& extent) {
+        boule::extent_of(count, serial_for, [&](std::size_t i, SphereExtent& extent) {
           const auto numbers = numbers_of(rows + i * layout.bytes(), layout, request);
           for (std::size_t at = 0; at + 1 < numbers.size(); at += 3)
             extent.add({numbers[at], numbers[at + 1], numbers[at + 2]}, numbers.back());

@@ -38,6 +38,7 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("least_weight"), 0);
   EXPECT_EQ(found.at("spheres"), 1);
   EXPECT_EQ(found.at("planes"), 1);
+  EXPECT_EQ(found.at("capsules"), 0);
   EXPECT_EQ(found.at("groups"), 0);
   EXPECT_EQ(found.at("instances"), 0);
   EXPECT_EQ(found.at("bounds"), json::parse(R"({"min": [-1, 0, -1], "max": [1, 2, 1]})"));
@@ -62,11 +63,12 @@ TEST_F(Info, JsonTellsEverything) {
             json::parse(R"([{"center": [0, 1, 0], "radius": 1, "material": "shiny"}])"));
   EXPECT_EQ(found.at("first_planes"), json::parse(R"([{"point": [0, 0, 0], "normal": [0, 1, 0],
                                                        "material": "default plane"}])"));
+  EXPECT_EQ(found.at("first_capsules"), json::array());
   EXPECT_EQ(found.at("group_list"), json::array());
   EXPECT_EQ(found.at("first_instances"), json::array());
   EXPECT_EQ(found.at("warnings"), json::array());
   EXPECT_EQ(found.at("notes"), json::array());
-  EXPECT_EQ(found.size(), 32u);
+  EXPECT_EQ(found.size(), 34u);
 }
 
 TEST_F(Info, WhatInstancesShowIsCountedAndFramed) {

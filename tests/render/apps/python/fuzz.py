@@ -151,7 +151,7 @@ class Caller:
     def spoil_scene(self):
         scene = self.small_scene()
         names = ["image", "render", "camera", "background", "ambient", "backdrop", "origin", "lights",
-                 "spheres", "planes", "materials", "groups", "instances"]  # fmt: skip
+                 "spheres", "planes", "capsules", "materials", "groups", "instances"]  # fmt: skip
         name = self.random.choice(names)
         setattr(scene, name, self.one_of(self.value(), [self.value()], {"a": self.value()}))
         boule.render(scene, size=(4, 3))

@@ -9,7 +9,7 @@ import boule
 
 
 @pytest.mark.parametrize("name", [
-    "lights", "spheres", "planes", "instances", "materials", "groups"])  # fmt: skip
+    "lights", "spheres", "planes", "capsules", "instances", "materials", "groups"])  # fmt: skip
 @pytest.mark.parametrize("value", [None, 3])
 def test_a_list_that_is_none_is_refused(ball, name, value):
     before = getattr(ball, name)
@@ -62,6 +62,7 @@ WRONG_VALUES = {
     "lights": [3, [3], boule.PointLight(position=(0, 0, 0)), [boule.Sphere()]],
     "spheres": [boule.Sphere(), [boule.Plane()], [[0, 0, 0, 1]]],
     "planes": [boule.Plane(), [boule.Sphere()]],
+    "capsules": [boule.Capsule(), [boule.Sphere()], [[0, 0, 0, 1, 1, 1, 1]]],
     "groups": [{"a": 3}, [boule.Group("a")]],
     "instances": [["a"], [boule.Group("a")]],
     "origin": ["moon", 3, (1, 2), (1, 2, 3, 4), (0, 0, float("inf")), ("1", "a", 2), None],
@@ -93,6 +94,7 @@ def test_wrong_scene_value_is_refused_when_set(ball, name):
         (boule.Group, "camera", None),
         (lambda: boule.Spheres([[0, 0, 0]], 1), "colour", "color"),
         (lambda: boule.Spheres([[0, 0, 0]], 1), "radius", "radii"),
+        (lambda: boule.Capsules([[0, 0, 0]], [1, 0, 0], 1), "radii", "radius"),
         (lambda: boule.Tracer([[0, 0, 0]], 1), "solver", None),
         (lambda: boule.render(boule.Scene(), size=(4, 3)), "exposure", None),
     ],
@@ -110,6 +112,10 @@ def test_values_from_arrays_are_read_only():
     for name in ("centers", "radii", "colors", "range"):
         with pytest.raises(AttributeError):
             setattr(spheres, name, getattr(spheres, name))
+    capsules = boule.Capsules([[0, 0, 0]], (1, 0, 0), 1)
+    for name in ("a", "b", "radius", "colors", "range"):
+        with pytest.raises(AttributeError):
+            setattr(capsules, name, getattr(capsules, name))
 
 
 def test_a_list_stays_the_callers_own(ball):

@@ -60,6 +60,15 @@ class PackedScenes : public PackedTest {
   }
 };
 
+TEST_F(PackedScenes, KeepTheirCapsules) {
+  Scene scene = cloud(1000);
+  scene.capsules = {{{-1, 0, 1}, {1, 0.5F, 1}, 0.2F, MaterialRef::colored(0, {200, 9, 9})},
+                    {{0, -1, 0.5F}, {3, 1, 0}, 0.1F, 2}};
+  expect_same(scene);
+  scene.camera.reset();
+  expect_same(scene);
+}
+
 TEST_F(PackedScenes, AreThoseThatWerePacked) {
   for (const int spheres : {0, 1, 16, 48, 49, 1000, 20'000}) {
     SCOPED_TRACE(spheres);
