@@ -101,8 +101,14 @@ TEST(Capsules, HitsLieARadiusOffTheSegment) {
   std::vector<Ray> rays;
   CaseRandom random(8);
   for (int i = 0; i < 20000; ++i) {
-    const Vec3d from = random.direction() * 5.0 + Vec3d{0, 5.5, 0};
-    rays.push_back({from, vec_cast<float>(random.direction() + Vec3d{0, 1, 0} - from)});
+    const Capsule& aim = scene.capsules[static_cast<std::size_t>(i) % scene.capsules.size()];
+    const Vec3d a = vec_cast<double>(aim.a), b = vec_cast<double>(aim.b);
+    Vec3d from = random.direction() * 9.0;
+    from.y = std::fabs(from.y) + 1;  // above the floor
+    from.z = std::fabs(from.z);      // and before the wall
+    const Vec3d to = a + (b - a) * random.uniform(-0.1, 1.1);
+    const Vec3d beside = random.direction() * (1.1 * double{aim.radius});
+    rays.push_back({from, vec_cast<float>(to + beside - from)});
   }
   std::vector<TracedHit> hits(rays.size());
   std::vector<std::uint8_t> met(rays.size());
