@@ -19,8 +19,8 @@ std::string rows(const std::string& shape, const std::vector<Number>& numbers) {
 /// Loads a scene beside the file rods.npy.
 Result<LoadedScene> load_beside(const std::string& rods, const std::string& text) {
   const SceneFolder files;
-  files.write("rods.npy", rods);
-  files.write("red.npy", rows<float>("(2, 3)", {1, 0, 0, 0, 0, 1}));
+  EXPECT_FALSE(files.write("rods.npy", rods).empty());
+  EXPECT_FALSE(files.write("red.npy", rows<float>("(2, 3)", {1, 0, 0, 0, 0, 1})).empty());
   return files.load("scene.toml", "schema = 1\n" + text);
 }
 
