@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "core/base/error.h"
@@ -31,6 +32,12 @@ class CellImages {
 
   /// By how much an image is moved; image 0 is not. The next ones follow along a, then b, then c.
   [[nodiscard]] Vec3d shift(std::size_t image) const;
+
+  /// How many vectors a, b and c an image is away from image 0.
+  [[nodiscard]] std::array<std::int64_t, 3> place(std::size_t image) const;
+  /// By how much what is so many vectors away is moved, among the images or beyond them.
+  [[nodiscard]] Vec3d shift(const std::array<std::int64_t, 3>& place) const;
+  [[nodiscard]] const std::array<int, 3>& counts() const { return counts_; }
 
  private:
   ParticleCell cell_{};

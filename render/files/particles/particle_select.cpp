@@ -253,6 +253,7 @@ void keep_particles(ParticleFrame& frame, const std::vector<std::uint8_t>& selec
     lists.emplace_back([&] { keep(column.indices, selected); });
   }
   if (frame.species) lists.emplace_back([&] { keep(frame.species->indices, selected); });
+  lists.emplace_back([&] { keep_bonds(frame.bonds, selected); });
   parallel_for(lists.size(), [&](std::size_t i) { lists[i](); });
 }
 

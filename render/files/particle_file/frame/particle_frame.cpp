@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/math/geometry.h"
 
@@ -44,6 +45,31 @@ const NumberColumn* find_number_column(const ParticleFrame& frame, const std::st
 
 const TextColumn* find_text_column(const ParticleFrame& frame, const std::string& name) {
   return find_column(frame.texts, name);
+}
+
+void put_in_order(std::vector<ParticleBond>& bonds) {
+  for (ParticleBond& bond : bonds) {
+    if (bond.b < bond.a) std::swap(bond.a, bond.b);
+  }
+  std::erase_if(bonds, [](const ParticleBond& bond) { return bond.a == bond.b; });
+  std::sort(bonds.begin(), bonds.end());
+  bonds.erase(std::unique(bonds.begin(), bonds.end()), bonds.end());
+}
+
+void keep_bonds(std::vector<ParticleBond>& bonds, const std::vector<std::uint8_t>& kept) {
+  if (bonds.empty()) return;
+  std::vector<std::uint32_t> places(kept.size());
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < kept.size(); ++i) {
+    places[i] = count;
+    count += kept[i];
+  }
+  std::erase_if(bonds,
+                [&](const ParticleBond& bond) { return kept[bond.a] == 0 || kept[bond.b] == 0; });
+  for (auto& [a, b] : bonds) {
+    a = places[a];
+    b = places[b];
+  }
 }
 
 bool is_wanted(const std::optional<std::vector<std::string>>& wanted, std::string_view name) {

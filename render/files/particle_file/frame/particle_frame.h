@@ -45,6 +45,18 @@ struct TextColumn {
   std::vector<std::uint32_t> indices{};  ///< by particle
 };
 
+/// Two particles with a bond, by their places in the frame.
+struct ParticleBond {
+  std::uint32_t a = 0, b = 0;
+
+  friend bool operator==(const ParticleBond& p, const ParticleBond& q) {
+    return p.a == q.a && p.b == q.b;
+  }
+  friend bool operator<(const ParticleBond& p, const ParticleBond& q) {
+    return p.a != q.a ? p.a < q.a : p.b < q.b;
+  }
+};
+
 /// One frame of a particle file, in the units of the file (lengths of GROMACS files: nm). All
 /// lists by particle have as many entries as `positions`, which are finite. So are all numbers that
 /// are there, unless the file was read with ParticleFileOptions::lenient.
@@ -58,6 +70,11 @@ struct ParticleFrame {
   /// The names of columns that the file has and that were not requested, for messages about similar
   /// names.
   std::vector<std::string> unread{};
+  /// Those that the file has, if they are asked for: in order, each once, a < b.
+  std::vector<ParticleBond> bonds{};
+  /// What is not among `bonds` is no bond. False where files list some only, such as those of
+  /// ligands.
+  bool lists_all_bonds = false;
   std::optional<ParticleCell> cell{};
   /// False if the axes of coordinates are arbitrary, as those of a molecule by itself are.
   bool axes_matter = true;
@@ -73,6 +90,13 @@ struct ParticleFrame {
 /// The column of this name, or null.
 const NumberColumn* find_number_column(const ParticleFrame& frame, const std::string& name);
 const TextColumn* find_text_column(const ParticleFrame& frame, const std::string& name);
+
+/// Puts bonds in order: a < b in each, each once, none of a particle with itself.
+void put_in_order(std::vector<ParticleBond>& bonds);
+
+/// Drops the bonds of particles that are not kept, which have 0 in `kept`, and numbers those of the
+/// others by their places among these.
+void keep_bonds(std::vector<ParticleBond>& bonds, const std::vector<std::uint8_t>& kept);
 
 /// Whether a column is to be read: all are if `wanted` is empty.
 bool is_wanted(const std::optional<std::vector<std::string>>& wanted, std::string_view name);

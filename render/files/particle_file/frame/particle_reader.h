@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ struct ParticleFileOptions {
   bool water = false;  ///< PDB and mmCIF: with water
   /// The columns to keep besides positions and species; none: all.
   std::optional<std::vector<std::string>> wanted{};
+  /// The bonds that a file lists are read for frames of at most so many particles; 0: for none.
+  std::uint64_t most_bonded = 0;
   /// A column whose numbers must be above 0: the first that is not is an error with its place, in
   /// formats of text rows (xyz, dump, data, table). Empty: none.
   std::string positive{};

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/scene/number_text.h"
 #include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/lammps/id_order.h"
 #include "render/files/particle_file/lammps/lammps_data_columns.h"
@@ -41,6 +42,9 @@ class LammpsDataReader : public ParticleReader {
       if (auto done = read_velocities(read, parallel_for); !done) return done.error();
     }
     if (auto done = name_elements(read); !done) return done.error();
+    if (sections_.bonds > 0 && sections_.atoms <= options_.most_bonded) {
+      if (auto done = read_bonds(read, parallel_for); !done) return done.error();
+    }
     columns.finish();
     return read;
   }
@@ -92,6 +96,47 @@ class LammpsDataReader : public ParticleReader {
       read.numbers.push_back(std::move(velocities.numbers[i]));
     }
     read.unread.insert(read.unread.end(), velocities.unread.begin(), velocities.unread.end());
+    return {};
+  }
+
+  /// Reads the section Bonds: number, type, and the ids of two atoms.
+  Status read_bonds(ParticleFrame& read, const ParallelFor& parallel_for) const {
+    const DataSection& section = sections_.bond_rows;
+    if (section.rows < sections_.bonds) {
+      return error_at_line(section.line,
+                           "the header promises " + std::to_string(sections_.bonds) +
+                               " rows, there are " + std::to_string(section.rows),
+                           "Bonds");
+    }
+    const NumberColumn* const ids = find_number_column(read, "id");
+    if (ids == nullptr) {
+      read.notes.emplace_back("its bonds are left out: they are of ids, which no column has");
+      return {};
+    }
+    ParticleFrame rows;
+    const std::optional<std::vector<std::string>> all;
+    NamedColumns columns(all, rows);
+    for (const char* name : {"-", "-", "a", "b"}) columns.add(name, "0");
+    if (auto done = read_text_rows(rows_of(section, false), columns.columns(), rows, parallel_for);
+        !done) {
+      return done;
+    }
+    read.bonds.resize(section.rows);
+    for (const auto end : {&ParticleBond::a, &ParticleBond::b}) {
+      const std::vector<double>& atoms = rows.numbers[end == &ParticleBond::a ? 0 : 1].values;
+      for (std::size_t i = 0; i < atoms.size(); ++i) {
+        const auto found = std::lower_bound(ids->values.begin(), ids->values.end(), atoms[i]);
+        if (found == ids->values.end() || *found != atoms[i]) {
+          return error_at_line(
+              section.line + i,
+              "a bond is of atom " + number_text(atoms[i]) + ", which the section Atoms lacks",
+              "Bonds");
+        }
+        read.bonds[i].*end = static_cast<std::uint32_t>(found - ids->values.begin());
+      }
+    }
+    put_in_order(read.bonds);
+    read.lists_all_bonds = true;
     return {};
   }
 

@@ -104,7 +104,8 @@ class SectionFinder {
       (name == "atoms" ? found_.atoms : found_.types) = *count;
       has_count_ = has_count_ || name == "atoms";
     }
-    return {};  // else a count of bonds, and the like
+    if (name == "bonds" && names == 1) found_.bonds = count_in(words[0]).value_or(0);
+    return {};  // else a count of angles, and the like
   }
 
   Status box_line(std::uint64_t number, std::string_view line,
@@ -192,6 +193,7 @@ class SectionFinder {
       return rows("Velocities", number, found_.velocity_rows);
     }
     if (words.size() == 1 && words[0] == "Masses") return masses(number);
+    if (words.size() == 1 && words[0] == "Bonds") bonds();
     while (!lines_.at_end() && !at_section()) lines_.skip(1);
     return {};
   }
@@ -217,6 +219,18 @@ class SectionFinder {
     section.text = text_.substr(begin, lines_.offset() - begin);
     if (section.rows == found_.atoms) return {};
     return too_short(name, line, found_.atoms, section.rows);
+  }
+
+  /// Few files are read for their bonds: what is wrong with them shows then.
+  void bonds() {
+    const std::size_t begin = lines_.offset();
+    DataSection& section = found_.bond_rows;
+    section = {.line = lines_.line()};
+    while (section.rows < found_.bonds && !lines_.at_end() && !at_section()) {
+      lines_.skip(1);
+      ++section.rows;
+    }
+    section.text = text_.substr(begin, lines_.offset() - begin);
   }
 
   Status masses(std::uint64_t line) {

@@ -23,12 +23,14 @@ struct DataSection {
 
 /// What a LAMMPS data file says besides its rows of atoms.
 struct DataSections {
-  std::uint64_t atoms = 0, types = 0;  ///< counts of the header
+  std::uint64_t atoms = 0, types = 0, bonds = 0;  ///< counts of the header
   std::optional<ParticleCell> cell;
   /// By type, from 1 on at index 0: the element that stands behind the mass in a comment ("# C").
   /// Empty unless all types have one.
   std::vector<std::string> elements;
   DataSection atom_rows, velocity_rows;
+  DataSection bond_rows;  ///< as many rows as there are, at most those of the header
+
   double length_in_angstrom = 1;   ///< by "units = real" of the first line
   std::vector<std::string> notes;  ///< sentences: what is taken for lines that are not there
 };

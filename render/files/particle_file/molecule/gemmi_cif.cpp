@@ -16,6 +16,7 @@
 #include <gemmi/elem.hpp>
 #include <gemmi/numb.hpp>
 
+#include "render/files/particle_file/molecule/gemmi_bonds.h"
 #include "render/files/particle_file/molecule/gemmi_cell.h"
 #include "render/files/particle_file/molecule/gemmi_symmetry.h"
 #endif
@@ -49,17 +50,6 @@ Diagnostic cif_error(const std::string& what) {
   while (at < end && (*at == ' ' || *at == ':')) ++at;
   error.message = "gemmi says: " + std::string(at, end);
   return error;
-}
-
-/// The text of a value; empty for '?', '.' and columns that are not there.
-std::string text_at(const Row& row, std::size_t column) {
-  return row.has2(column) ? cif::as_string(row[column]) : std::string();
-}
-
-/// The first of two columns that has a value.
-std::string text_at(const Row& row, std::size_t column, std::size_t other) {
-  std::string text = text_at(row, column);
-  return text.empty() ? text_at(row, other) : text;
 }
 
 /// The symbol at the start of "Fe3+", "C12", "OW"; "X" for others.
@@ -147,22 +137,33 @@ class CifAtoms {
     const auto cell = cell_of("_cell.");
     if (!cell) return cell.error();
     std::map<std::string, std::size_t> models;  // in `columns`
+    const CifBondList listed = options_.most_bonded > 0 ? read_cif_bonds(block_) : CifBondList();
     std::vector<MoleculeColumns> columns;
+    std::vector<CifBonds> bonds;
     for (Row row : table) {
       const auto [found, is_new] = models.try_emplace(text_at(row, model), columns.size());
-      if (is_new) columns.emplace_back(MoleculeKind::residues, options_.water);
-      if (auto done = add_atom(table, row, columns[found->second]); !done) return done.error();
+      if (is_new) {
+        columns.emplace_back(MoleculeKind::residues, options_.water);
+        bonds.emplace_back(listed);
+      }
+      MoleculeColumns& own = columns[found->second];
+      if (auto done = add_atom(table, row, own, bonds[found->second]); !done) return done.error();
     }
     std::vector<ParticleFrame> frames;
-    for (MoleculeColumns& each : columns) {
-      frames.push_back(each.finish(options_.wanted));
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      if (columns[i].ids().size() <= options_.most_bonded) bonds[i].add_to(columns[i]);
+      frames.push_back(columns[i].finish(options_.wanted));
+      if (listed.elsewhere > 0 && options_.most_bonded > 0) {
+        frames.back().notes.push_back(std::to_string(listed.elsewhere) +
+                                      " of its bonds left out: they are to symmetric copies");
+      }
       if (cell.value()) frames.back().cell = cell.value()->particle;
       frames.back().axes_matter = false;
     }
     return frames;
   }
 
-  Status add_atom(cif::Table& table, const Row& row, MoleculeColumns& columns) {
+  Status add_atom(cif::Table& table, const Row& row, MoleculeColumns& columns, CifBonds& bonds) {
     MoleculeAtom read;
     if (auto done = read_position(table, row, read.position); !done) return done;
     const auto occupied = number_at(table, row, occupancy, "occupancy", 1);
@@ -185,7 +186,11 @@ class CifAtoms {
     read.id = finite_or(text_at(row, id), row.row_index + 1);
     read.occupancy = occupied.value();
     read.b_factor = factor.value();
-    columns.add(read);
+    const auto place = columns.add(read);
+    if (!place || bonds.empty()) return {};
+    bonds.add_atom(cif_atom_key(chain_name, text_at(row, auth_residue_number, residue_number), code,
+                                residue_name, name, location),
+                   *place);
     return {};
   }
 

@@ -21,6 +21,10 @@ bool has_gemmi();
 /// Adds the atoms of PDB records in their order.
 Status add_pdb_atoms(PdbRecords records, MoleculeColumns& columns);
 
+/// Adds the bonds of records CONECT among the lines. Serial numbers that atoms share, or that no
+/// kept atom has, have none.
+void add_pdb_bonds(std::string_view lines, MoleculeColumns& columns);
+
 /// The cell of PDB records CRYST1 and SCALE, in lines of 80 bytes. An error if there is none with
 /// these edges and angles.
 Result<ParticleCell> read_pdb_cell(const std::string& records);

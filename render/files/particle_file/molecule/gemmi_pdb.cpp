@@ -1,7 +1,10 @@
 #include "render/files/particle_file/molecule/gemmi_particles.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "render/files/particle_file/frame/element_guess.h"
@@ -12,6 +15,7 @@
 #include <gemmi/resinfo.hpp>
 
 #include "render/files/particle_file/molecule/gemmi_cell.h"
+#include "render/files/particle_file/text/text_lines.h"
 #include "render/files/particle_file/text/text_number.h"
 #endif
 
@@ -21,6 +25,7 @@ namespace boule {
 
 bool has_gemmi() { return false; }
 Status add_pdb_atoms(PdbRecords, MoleculeColumns&) { return Diagnostic::of("no gemmi"); }
+void add_pdb_bonds(std::string_view, MoleculeColumns&) {}
 Result<ParticleCell> read_pdb_cell(const std::string&) { return Diagnostic::of("no gemmi"); }
 
 #else
@@ -108,6 +113,27 @@ std::string_view guess_element(const gemmi::Atom& atom, const RecordNames& names
   return by_name ? element_of_atom(atom.name, names.residue) : atom.element.name();
 }
 
+/// Where the atoms are that have a serial number of their own.
+class PlacesOfSerials {
+ public:
+  explicit PlacesOfSerials(const std::vector<double>& serials) {
+    for (const double serial : serials) {
+      places_.emplace_back(serial, static_cast<std::uint32_t>(places_.size()));
+    }
+    std::sort(places_.begin(), places_.end());
+  }
+
+  [[nodiscard]] std::optional<std::uint32_t> find(double serial) const {
+    const auto least = std::lower_bound(places_.begin(), places_.end(), std::pair(serial, 0U));
+    if (least == places_.end() || least->first != serial) return std::nullopt;
+    if (least + 1 != places_.end() && (least + 1)->first == serial) return std::nullopt;
+    return least->second;
+  }
+
+ private:
+  std::vector<std::pair<double, std::uint32_t> > places_;
+};
+
 std::string_view one_letter(const char& letter, char none) {
   return letter == none ? std::string_view() : std::string_view(&letter, 1);
 }
@@ -147,6 +173,24 @@ Status add_pdb_atoms(PdbRecords records, MoleculeColumns& columns) {
     }
     return {};
   });
+}
+
+void add_pdb_bonds(std::string_view lines, MoleculeColumns& columns) {
+  const PlacesOfSerials places(columns.ids());
+  for (TextLines rest(lines); !rest.at_end();) {
+    const std::string_view line = rest.next();
+    if (!is_pdb_bond(line)) continue;
+    constexpr std::size_t begin = 6, width = 5, most = 5;
+    std::array<std::optional<std::uint32_t>, most> found;
+    for (std::size_t i = 0; i < most; ++i) {
+      const std::size_t at = begin + i * width;
+      std::string serial(line.substr(std::min(at, line.size()), width));
+      if (without_blanks(serial).empty()) continue;
+      serial.resize(width, ' ');
+      found[i] = places.find(gemmi::pdb_impl::read_serial(serial.c_str()));
+      if (i > 0 && found[0] && found[i]) columns.add_bond({*found[0], *found[i]});
+    }
+  }
 }
 
 Result<ParticleCell> read_pdb_cell(const std::string& records) {

@@ -93,10 +93,10 @@ bool MoleculeColumns::is_alternative(const MoleculeAtom& atom) {
   return !atom.alternative.empty() && seen;
 }
 
-void MoleculeColumns::add(const MoleculeAtom& atom) {
+std::optional<std::uint32_t> MoleculeColumns::add(const MoleculeAtom& atom) {
   if (is_alternative(atom)) {
     ++alternatives_;
-    return;
+    return std::nullopt;
   }
   positions_.push_back(atom.position);
   elements_.add(atom.element);
@@ -112,6 +112,7 @@ void MoleculeColumns::add(const MoleculeAtom& atom) {
   is_water_.push_back(is_water(atom.residue));
   if (is_water_.back()) ++water_;
   if (atom.is_guessed) ++guessed_;
+  return static_cast<std::uint32_t>(positions_.size() - 1);
 }
 
 void MoleculeColumns::leave_out_water(ParticleFrame& frame) const {
@@ -123,6 +124,9 @@ void MoleculeColumns::leave_out_water(ParticleFrame& frame) const {
     leave_out(is_water_, column.indices);
     renumber(column);
   }
+  std::vector<std::uint8_t> kept(is_water_.size());
+  for (std::size_t row = 0; row < kept.size(); ++row) kept[row] = is_water_[row] ? 0 : 1;
+  keep_bonds(frame.bonds, kept);
   frame.notes.push_back(count_of(water_) + " of water left out");
 }
 
@@ -130,6 +134,8 @@ ParticleFrame MoleculeColumns::finish(const std::optional<std::vector<std::strin
   ParticleFrame frame;
   frame.positions = std::move(positions_);
   frame.species = std::move(elements_.column);
+  frame.bonds = std::move(bonds_);
+  put_in_order(frame.bonds);
   const auto keep = [&](auto& columns, auto& column, MoleculeKind kind) {
     if (kind_ == MoleculeKind::sites && kind != kind_) return;
     if (is_wanted(wanted, column.name)) {

@@ -39,7 +39,11 @@ class MoleculeColumns {
   MoleculeColumns(MoleculeKind kind, bool water);
 
   void reserve(std::size_t atoms);
-  void add(const MoleculeAtom& atom);
+  /// The place of the atom in the frame before water is left out; none for other locations.
+  std::optional<std::uint32_t> add(const MoleculeAtom& atom);
+  void add_bond(const ParticleBond& bond) { bonds_.push_back(bond); }
+  /// The ids of the atoms that were kept.
+  [[nodiscard]] const std::vector<double>& ids() const { return ids_.values; }
 
   /// The frame with the `wanted` columns, as in ParticleFileOptions. Water (HOH, WAT, DOD, H2O) is
   /// left out if that was asked for and there is something else. Notes say what is left out.
@@ -66,6 +70,7 @@ class MoleculeColumns {
       b_factors_{"bfactor", {}};
   Texts elements_{{"element", {}, {}}}, names_{{"name", {}, {}}}, residues_{{"resname", {}, {}}},
       chains_{{"chain", {}, {}}};
+  std::vector<ParticleBond> bonds_;
   std::vector<bool> is_water_;
   std::size_t water_ = 0, alternatives_ = 0, guessed_ = 0;
 

@@ -30,6 +30,7 @@ class PdbReader : public PlacedReader<PdbFrame> {
     MoleculeColumns columns(MoleculeKind::residues, options_.water);
     columns.reserve(atoms);
     if (auto done = read_atoms(place, columns); !done) return done.error();
+    if (place.atoms <= options_.most_bonded) add_bonds(place, columns);
     ParticleFrame read = columns.finish(options_.wanted);
     read.cell = cell.value();
     read.axes_matter = false;
@@ -47,6 +48,15 @@ class PdbReader : public PlacedReader<PdbFrame> {
     auto cell = read_pdb_cell(records.value());
     if (!cell) return error_at_line(place.cell_line, cell.error().message, "CRYST1");
     return std::optional(cell.value());
+  }
+
+  /// The bonds of the frame, or those at the end of the file, which are of all frames.
+  void add_bonds(const PdbFrame& place, MoleculeColumns& columns) const {
+    const std::string_view own = bytes_.text().substr(place.begin, place.end - place.begin);
+    TextLines lines(own);
+    bool has_own = false;
+    while (!lines.at_end() && !has_own) has_own = is_pdb_bond(lines.next());
+    add_pdb_bonds(has_own ? own : bytes_.text().substr(places_.frames.back().end), columns);
   }
 
   /// Gives gemmi so many records at once that its own structures stay small.

@@ -23,7 +23,7 @@ constexpr std::array cell_fields{PdbField{"a", 6, 9},     PdbField{"b", 15, 9},
                                  PdbField{"c", 24, 9},    PdbField{"alpha", 33, 7},
                                  PdbField{"beta", 40, 7}, PdbField{"gamma", 47, 7}};
 
-/// True for a name of four letters at most, in any case, at the start of the line.
+/// True for a name, in any case, at the start of the line.
 bool is_record(std::string_view line, std::string_view name) {
   if (line.size() < name.size()) return false;
   return std::equal(name.begin(), name.end(), line.begin(), [](char expected, char c) {
@@ -158,6 +158,8 @@ Result<FramePlaces<PdbFrame>> find_pdb_frames(std::string_view text, bool is_cut
 bool is_pdb_atom(std::string_view line) {
   return is_record(line, "ATOM") || is_record(line, "HETATM");
 }
+
+bool is_pdb_bond(std::string_view line) { return is_record(line, "CONECT"); }
 
 Status add_pdb_record(std::string_view line, std::uint64_t line_number, const PdbFields& fields,
                       PdbRecords& records) {

@@ -30,6 +30,9 @@ Result<FramePlaces<PdbFrame>> find_pdb_frames(std::string_view text, bool is_cut
 /// True if this line is of an atom.
 bool is_pdb_atom(std::string_view line);
 
+/// True if this line is of bonds: CONECT.
+bool is_pdb_bond(std::string_view line);
+
 /// Which fields of atoms are read.
 struct PdbFields {
   bool occupancy = true, b_factor = true;
