@@ -92,6 +92,19 @@ std::optional<std::string> parse_radius(const std::string& text) {
   return text.empty() || (is_number && !parse_above_0(text)) ? std::nullopt : std::optional(text);
 }
 
+std::optional<std::string> parse_bonds(const std::string& text) {
+  const auto& rules = names<BondRule>;
+  const bool is_rule = std::find(rules.begin(), rules.end(), text) != rules.end();
+  return is_rule || parse_above_0(text) ? std::optional(text) : std::nullopt;
+}
+
+std::string list_bond_rules() { return joined(names<BondRule>, ", "); }
+
+std::optional<std::vector<std::string>> parse_arrows(const std::string& text) {
+  auto names = parse_names(text);
+  return names && (names->size() == 1 || names->size() == 3) ? names : std::nullopt;
+}
+
 std::optional<std::string> parse_particle_color(const std::string& text) {
   const bool is_broken = text.starts_with('#') && !parse_hex_color(text);
   return text.empty() || is_broken ? std::nullopt : std::optional(text);
@@ -134,6 +147,10 @@ std::optional<std::array<int, 3>> parse_replicate(const std::string& text) {
 }
 
 std::string hint_format(const std::string& text) { return did_you_mean(text, particle_formats()); }
+
+std::string hint_bonds(const std::string& text) {
+  return did_you_mean(text, {names<BondRule>.begin(), names<BondRule>.end()});
+}
 
 std::string hint_map(const std::string& text) {
   return text.find(',') == std::string::npos ? did_you_mean_map(text)

@@ -28,6 +28,13 @@ std::optional<std::vector<std::string>> parse_names(const std::string& text);
 /// A radius of particles: any text but an empty one and a number that is not above 0.
 std::optional<std::string> parse_radius(const std::string& text);
 
+/// A name of BondRule, or a number above 0.
+std::optional<std::string> parse_bonds(const std::string& text);
+std::string list_bond_rules();
+
+/// Three names of columns, or one that they have before x, y, z.
+std::optional<std::vector<std::string>> parse_arrows(const std::string& text);
+
 /// Colours of particles: any text but an empty one and "#..." that is no colour.
 std::optional<std::string> parse_particle_color(const std::string& text);
 
@@ -54,8 +61,10 @@ std::optional<std::vector<KindText>> parse_kind_radii(const std::string& text);
 std::optional<std::array<int, 3>> parse_replicate(const std::string& text);
 
 /// What is probably meant where the text is not understood: "; did you mean 'viridis'?", or
-/// nothing. Of formats of particle files, of maps, of a colour, and of colours of kinds.
+/// nothing. Of formats of particle files, of rules for bonds, of maps, of a colour, and of colours
+/// of kinds.
 std::string hint_format(const std::string& text);
+std::string hint_bonds(const std::string& text);
 std::string hint_map(const std::string& text);
 std::string hint_color(const std::string& text);
 std::string hint_kind_colors(const std::string& text);

@@ -184,6 +184,19 @@ void add_particles(std::string& text, const std::string& file, const LookOptions
   }
   if (!options.radii.empty()) add_line(text, "radii", inline_table(options.radii, true));
   if (options.scale) add_line(text, "scale", number(*options.scale));
+  if (options.style) add_line(text, "style", toml_string(name_of(*options.style)));
+  if (!options.bonds.empty()) {
+    const bool is_number = parse_above_0(options.bonds).has_value();
+    add_line(text, "bonds", is_number ? options.bonds : toml_string(options.bonds));
+  }
+  if (options.bond_radius) add_line(text, "bond_radius", number(*options.bond_radius));
+  if (!options.bond_color.empty()) add_line(text, "bond_color", toml_string(options.bond_color));
+  if (options.cell) add_line(text, "cell", "true");
+  if (!options.arrows.empty()) {
+    const bool is_one = options.arrows.size() == 1;
+    add_line(text, "arrows", is_one ? toml_string(options.arrows[0]) : list(options.arrows));
+  }
+  if (options.arrow_scale) add_line(text, "arrow_scale", number(*options.arrow_scale));
   if (!options.select.empty()) add_line(text, "select", toml_string(options.select));
   if (options.wrap) add_line(text, "wrap", "true");
   if (options.replicate) {

@@ -9,6 +9,7 @@
 #include "core/math/vec.h"
 #include "core/scene/camera_fit.h"
 #include "core/scene/names.h"
+#include "render/files/particles/particle_style.h"
 
 namespace boule {
 
@@ -51,6 +52,13 @@ struct LookOptions {
   std::optional<std::array<double, 2>> range{};   ///< of the map; least < largest
   std::string radius{};                           ///< a number, "vdw", "covalent" or a column
   std::vector<KindText> radii{};                  ///< of species
+  std::optional<ParticleShape> style{};           ///< balls, sticks or both
+  std::string bonds{};                            ///< a name of BondRule, or a number
+  std::optional<double> bond_radius{};            ///< > 0
+  std::string bond_color{};                       ///< of all bonds; empty: of their particles
+  bool cell = false;                              ///< the edges of the cell
+  std::vector<std::string> arrows{};              ///< columns of vectors: three, or their one name
+  std::optional<double> arrow_scale{};            ///< times the vectors, > 0
   std::optional<double> scale{};                  ///< of the radii, > 0
   bool wrap = false;                              ///< into the cell
   std::optional<std::array<int, 3>> replicate{};  ///< images along the cell's edges

@@ -205,8 +205,7 @@ class BondFinder {
     CellSteps first{}, last{};
     for (std::size_t k = 0; k < 3; ++k) {
       if (!period_.along(k)) continue;
-      const double at =
-          std::clamp(period_.fractions().fraction(k, position) + home[k], 0.0, 1.0);
+      const double at = std::clamp(period_.fractions().fraction(k, position) + home[k], 0.0, 1.0);
       first[k] = static_cast<std::int32_t>(std::ceil(-margin[k] - at));
       last[k] = static_cast<std::int32_t>(std::floor(1 + margin[k] - at));
     }

@@ -61,12 +61,20 @@ void ParticleChoices::add(const ParticleChoices& frame) {
   if (frame.particles > 0 || frame.distance) {
     const bool is_first = particles == 0 && !distance;
     const bool same =
-        frame.distance == distance && frame.most_are_elements() == most_are_elements();
+        frame.distance == distance && frame.most_are_elements() == most_are_elements() &&
+        frame.starts_bonded == starts_bonded && frame.smallest_radius == smallest_radius;
     radii_differ = radii_differ || (!is_first && !same);
   }
   elements += frame.elements;
   particles += frame.particles;
   if (frame.distance) distance = std::min(distance.value_or(*frame.distance), *frame.distance);
+  if (frame.starts_bonded) {
+    starts_bonded = starts_bonded.value_or(true) && *frame.starts_bonded;
+  }
+  if (frame.smallest_radius) {
+    smallest_radius =
+        std::min(smallest_radius.value_or(*frame.smallest_radius), *frame.smallest_radius);
+  }
   add_names(frame.unlisted, unlisted);
   if (frame.range) {
     const auto& [low, high] = *frame.range;

@@ -41,6 +41,12 @@ struct ParticleChoices {
   SrgbColor nan_color = missing_color;  ///< as ParticleStyle
   std::optional<SrgbColor> all{};       ///< of the kinds for which nothing is given
 
+  /// Whether balls and sticks are drawn where nobody says it; in a series, whether all frames with
+  /// particles are of such.
+  std::optional<bool> starts_bonded{};
+  /// Of the particles, where radii of bonds come from it; in a series of all frames.
+  std::optional<double> smallest_radius{};
+
   std::string of_frames{};  ///< "all 4 frames"; empty: one frame by itself
 
   /// Adds another frame of the same series.

@@ -37,6 +37,7 @@ Status check_cell(const ParticleFrame& frame, const ParticleStyle& style,
   const bool replicates = count_images(style.replicate) > 1;
   if (!frame.cell) {
     if (style.wrap) return Diagnostic::about("wrap", "the file tells no cell to wrap into");
+    if (style.cell) return Diagnostic::about("cell", "the file tells no cell to draw");
     if (replicates) return Diagnostic::about("replicate", "the file tells no cell to replicate");
     return {};
   }
@@ -202,6 +203,8 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   if (auto done = check_style(style); !done) return done.error();
   if (auto done = check_cell(frame, style, frame.notes); !done) return done.error();
   auto source = find_radius_source(frame, style, made.own_, parallel_for);
+  const auto plan = plan_bonds(frame, style, made.own_);
+  if (!plan) return plan.error();
   // A frame without particles may lack the columns that the others of its series have.
   if (!source && count == 0) source = RadiusSource{.all = 1};
   if (!source) return source.error();
@@ -224,6 +227,9 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   made.radii_ = std::move(radii.value().radii);
   made.smallest_radius_ = radii.value().smallest;
   made.materials_ = std::move(materials.value().materials);
+  if (auto done = made.add_bonds(style, plan.value(), source.value(), name_of, parallel_for); !done)
+    return done.error();
+  if (auto done = made.add_arrows(style); !done) return done.error();
   made.colors_ = std::move(materials.value().colors);
   made.radius_source_ = std::move(source.value().text);
   append(frame.notes, std::move(source.value().notes));

@@ -14,8 +14,10 @@
 #include "core/scene/material_ref.h"
 #include "core/scene/primitive.h"
 #include "render/files/particle_file/frame/particle_frame.h"
+#include "render/files/particles/bond_capsules.h"
 #include "render/files/particles/cell_images.h"
 #include "render/files/particles/color_meaning.h"
+#include "render/files/particles/particle_bonds.h"
 #include "render/files/particles/particle_choices.h"
 #include "render/files/particles/particle_style.h"
 #include "render/files/particles/particle_values.h"
@@ -61,6 +63,16 @@ class ParticleSpheres {
   Status append_to(std::vector<Sphere>& spheres, const Vec3d& origin,
                    const ParallelFor& parallel_for = serial_for) &&;
 
+  /// Appends the capsules: bonds, edges of the cell, arrows. To be called before the spheres are
+  /// appended, with the same origin. An error, and no capsule more, as of spheres.
+  Status append_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
+  /// The same of the first image only; pieces of bonds meet where images do.
+  Status append_first_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
+  /// The edges of the cell only, which all images have together.
+  void append_cell_edges_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
+  /// Bonds of the particles, those of images not among them.
+  [[nodiscard]] std::size_t bonds() const { return bonds_.size(); }
+
   /// Whether there are so many images that they had better be instances of the first one.
   [[nodiscard]] bool shares_images(std::uint64_t fewest_spheres = fewest_shared) const;
   static constexpr std::uint64_t fewest_shared = 1U << 24;  ///< spheres, images included
@@ -74,6 +86,11 @@ class ParticleSpheres {
     std::size_t begin = 0, end = 0;
   };
 
+  Status add_bonds(const ParticleStyle& style, const BondPlan& plan, RadiusSource& source,
+                   const ParticleNamer& name_of, const ParallelFor& parallel_for);
+  Status add_arrows(const ParticleStyle& style);
+  Status append_capsules_of(const CellImages& images, std::vector<Capsule>& capsules,
+                            const Vec3d& origin) const;
   void keep_own(ParticleChoices colors);
   Status place(const ParticleStyle& style, const ParallelFor& parallel_for);
   Status append_images_to(std::vector<Sphere>& spheres, std::size_t images, const Vec3d& origin,
@@ -87,6 +104,10 @@ class ParticleSpheres {
   ParticleValues<float> radii_;
   ParticleValues<MaterialRef> materials_;
   CellImages images_;
+  std::vector<Bond> bonds_;
+  BondLook bond_look_;
+  std::optional<BondLook> edge_look_;  ///< if the edges of the cell are drawn
+  std::vector<Vec3d> arrows_;          ///< of each particle; empty: none
   std::array<Vec3d, 2> bounds_{};
   double smallest_radius_ = 0;
   ParticleColors colors_;

@@ -56,6 +56,8 @@ std::vector<std::string> columns_of(const ParticleStyle& style) {
   add_radius_columns(style.radius, names);
   add_color_columns(style.color, names);
   add_select_columns(style.select, names);
+  if (style.arrows)
+    names.insert(names.end(), style.arrows->names.begin(), style.arrows->names.end());
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;

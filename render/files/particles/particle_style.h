@@ -58,10 +58,36 @@ struct MappedColors {
   std::optional<std::array<double, 2>> range{};
 };
 
+/// A vector at each particle, from its centre.
+struct ArrowColumns {
+  std::array<std::string, 3> names;  ///< of numbers: x, y, z
+  double scale = 1;                  ///< times the vectors; > 0
+};
+
 /// What a particle's colour is. Nothing: columns "color" or "red", "green", "blue" if there are
 /// some, else species if there are any, else the material's own.
 using ColorRule =
     std::variant<std::monostate, SrgbColor, SpeciesColors, ColorColumns, MappedColors>;
+
+/// What particles are drawn as: spheres that fill space, small ones with bonds between them, or
+/// bonds with ends as thick as they are.
+enum class ParticleShape { space_filling, balls_and_sticks, sticks };
+template <>
+inline constexpr std::array<std::string_view, 3> names<ParticleShape>{"space-filling",
+                                                                      "balls-and-sticks", "sticks"};
+
+/// Which particles are bonded: those that the file lists; those whose distance is below the sum of
+/// their covalent radii and 0.4 angstrom; those whose spheres overlap; none. Automatic: what the
+/// file lists, if it lists all; else also those by distance, but for two particles whose bonds it
+/// lists.
+enum class BondRule { automatic, file, distance, contacts, none };
+template <>
+inline constexpr std::array<std::string_view, 5> names<BondRule>{"auto", "file", "distance",
+                                                                 "contacts", "none"};
+
+/// A rule, or the distance below which particles are bonded, > 0. Nothing: automatic if bonds are
+/// drawn, else none.
+using BondChoice = std::variant<std::monostate, BondRule, double>;
 
 /// How the particles of a frame become spheres: what [[particles]] says.
 struct ParticleStyle {
@@ -78,6 +104,14 @@ struct ParticleStyle {
   /// The index of the spheres' material; below MaterialRef::max_colored, unless they keep its
   /// colour.
   std::uint32_t material = 0;
+  /// Nothing: balls and sticks if `bonds` is a rule, or if no radii are given and the file lists
+  /// bonds for most of at most 1000 particles; else spheres that fill space.
+  std::optional<ParticleShape> shape{};
+  BondChoice bonds{};
+  std::optional<double> bond_radius{};    ///< > 0; nothing: one that fits the shape
+  std::optional<SrgbColor> bond_color{};  ///< nothing: half bonds have their particles' colours
+  bool cell = false;                      ///< with the edges of the cell
+  std::optional<ArrowColumns> arrows{};
   /// Which particles: "type == 1 && x > 0", 'species == "Fe"' (SelectExpression); empty: all.
   std::string select{};
   bool wrap = false;                      ///< into the cell, along its periodic directions

@@ -22,6 +22,7 @@ struct ParticleFacts {
   std::optional<double> time{};  ///< of that frame, if the file has it
   std::size_t particles = 0;     ///< in that frame
   std::size_t spheres = 0;       ///< number of shown spheres, periodic images included
+  std::size_t bonds = 0;         ///< of the shown particles, without those of images
   std::string radius_source{};   ///< as ParticleSpheres
   ParticleColors colors{};
   std::optional<ParticleCell> cell{};

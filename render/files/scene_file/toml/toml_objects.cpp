@@ -114,18 +114,18 @@ T TomlObjects::read_checked(TomlTable& table, std::initializer_list<std::string_
   return value;
 }
 
-void TomlObjects::read_spheres(std::vector<ObjectTables::Spheres>& tables,
-                               std::vector<Sphere>& spheres) {
+template <class Owner>
+void TomlObjects::read_spheres(std::vector<ObjectTables::Spheres>& tables, Owner& owner) {
   for (auto& [table, source, particles] : tables) {
     switch (source) {
       case ObjectTables::Source::sphere:
-        read_sphere(table, spheres);
+        read_sphere(table, owner.spheres);
         break;
       case ObjectTables::Source::spheres:
-        read_bulk(table, spheres);
+        read_bulk(table, owner.spheres);
         break;
       case ObjectTables::Source::particles:
-        add_particles(table, particles, spheres);
+        add_particles(table, particles, owner);
         break;
     }
   }
@@ -142,10 +142,12 @@ void TomlObjects::load_particles(ObjectTables& tables) {
   }
 }
 
-/// Makes spheres of particles, and lets go of these.
+/// Makes spheres and capsules of particles, and lets go of these.
+template <class Owner>
 void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
-                                std::vector<Sphere>& spheres) {
+                                Owner& owner) {
   if (!particles || !error_.status()) return;
+  std::vector<Sphere>& spheres = owner.spheres;
   const auto fewest = options_.fewest_shared.value_or(ParticleSpheres::fewest_shared);
   if (particles->spheres.shares_images(fewest) && &spheres == &scene_.spheres) {
     add_images(table, std::move(particles->spheres));
@@ -153,6 +155,8 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
   }
   make_room(spheres, particles->spheres.size());
   const std::size_t before = spheres.size();
+  if (auto done = particles->spheres.append_capsules_to(owner.capsules, table.origin()); !done)
+    table.report("file", done.error().message);
   if (auto done =
           std::move(particles->spheres).append_to(spheres, table.origin(), options_.parallel_for);
       !done) {
@@ -166,6 +170,10 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
 void TomlObjects::add_images(TomlTable& table, ParticleSpheres particles) {
   Group group{"images of " + table.path(), {}, {}, {}, {}};
   const CellImages images = particles.images();
+  particles.append_cell_edges_to(scene_.capsules, table.origin());
+  if (auto done = particles.append_first_capsules_to(group.capsules, table.origin()); !done) {
+    return table.report("file", done.error().message);
+  }
   if (auto done = std::move(particles).append_first_image_to(group.spheres, table.origin(),
                                                              options_.parallel_for);
       !done) {
@@ -293,13 +301,13 @@ void TomlObjects::start_groups(const std::vector<TomlTable>& tables) {
 void TomlObjects::read_group(std::size_t group, ObjectTables& tables,
                              const std::vector<Vec3d>& origins) {
   Group& own = scene_.groups[group];
-  read_spheres(tables.spheres, own.spheres);
+  read_spheres(tables.spheres, own);
   read_others(tables, own);
   read_instances(tables.instances, group, origins, own.instances);
 }
 
 void TomlObjects::read_scene(ObjectTables& tables, const std::vector<Vec3d>& group_origins) {
-  read_spheres(tables.spheres, scene_.spheres);
+  read_spheres(tables.spheres, scene_);
   read_others(tables, scene_);
   read_instances(tables.instances, std::nullopt, group_origins, scene_.instances);
 }

@@ -88,7 +88,8 @@ class TomlObjects final : private TomlNames {
     TomlTable table;
   };
 
-  void read_spheres(std::vector<ObjectTables::Spheres>& tables, std::vector<Sphere>& spheres);
+  template <class Owner>
+  void read_spheres(std::vector<ObjectTables::Spheres>& tables, Owner& owner);
   void read_sphere(TomlTable& table, std::vector<Sphere>& spheres);
   /// Spheres or capsules of a file, or in memory.
   template <class Primitive>
@@ -98,8 +99,8 @@ class TomlObjects final : private TomlNames {
   template <class Primitive>
   void color_bulk(TomlTable& table, const SphereColors& colors, const std::string& path,
                   std::span<Primitive> primitives);
-  void add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
-                     std::vector<Sphere>& spheres);
+  template <class Owner>
+  void add_particles(TomlTable& table, std::optional<TomlParticles>& particles, Owner& owner);
   void add_images(TomlTable& table, ParticleSpheres particles);
   template <class Owner>
   void read_others(ObjectTables& tables, Owner& owner);

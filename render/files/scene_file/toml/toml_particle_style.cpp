@@ -9,6 +9,7 @@
 
 #include "core/base/text.h"
 #include "core/scene/number_text.h"
+#include "render/files/file/nearest_name.h"
 #include "render/files/scene_file/toml/toml_color_map.h"
 
 namespace boule {
@@ -48,6 +49,53 @@ std::vector<OfKind<Value>> read_kinds(TomlTable& table, std::string_view key,
     all.push_back({kind, read_one(*kinds, kind)});
   }
   return all;
+}
+
+/// The value of an enum by its name; `also` is what else the message says is expected.
+template <class Enum>
+Enum read_name(TomlTable& table, std::string_view key, const std::string& also = {}) {
+  std::string text;
+  table.read(key, text);
+  const std::vector<std::string_view> known(names<Enum>.begin(), names<Enum>.end());
+  const auto found = std::find(known.begin(), known.end(), text);
+  if (found != known.end()) return static_cast<Enum>(found - known.begin());
+  table.report(key, "unknown " + std::string(key) + " " + quote(text) + ", expected " + also +
+                        list_names(known) + did_you_mean(text, known));
+  return {};
+}
+
+BondChoice read_bonds(TomlTable& table) {
+  if (!table.has("bonds")) return {};
+  if (!table.has_text("bonds")) return read_positive(table, "bonds", 1);
+  return read_name<BondRule>(table, "bonds", "a number, ");
+}
+
+/// The vectors: three columns, or the one name that they have before x, y, z.
+ArrowColumns read_arrows(TomlTable& table) {
+  ArrowColumns arrows;
+  if (table.has_text("arrows")) {
+    std::string name;
+    table.read("arrows", name);
+    arrows.names = {name + "x", name + "y", name + "z"};
+  } else {
+    std::vector<std::string> columns;
+    table.read("arrows", columns);
+    if (columns.size() != 3) table.report("arrows", "expected three columns, or their one name");
+    columns.resize(3);
+    std::move(columns.begin(), columns.end(), arrows.names.begin());
+  }
+  arrows.scale = read_positive(table, "arrow_scale", arrows.scale);
+  return arrows;
+}
+
+/// The keys of what is drawn besides spheres.
+void read_bond_keys(TomlTable& table, ParticleStyle& style) {
+  if (table.has("style")) style.shape = read_name<ParticleShape>(table, "style");
+  style.bonds = read_bonds(table);
+  if (table.has("bond_radius")) style.bond_radius = read_positive(table, "bond_radius", 1);
+  if (table.has("bond_color")) style.bond_color = read_color_codes(table, "bond_color");
+  table.read("cell", style.cell);
+  if (table.has("arrows")) style.arrows = read_arrows(table);
 }
 
 ColorRule read_color_text(TomlTable& table) {
@@ -96,6 +144,7 @@ ParticleStyle read_particle_style(TomlTable& table) {
   style.color = read_color(table);
   style.colors = read_kinds<SrgbColor>(table, "colors", read_color_codes);
   if (table.has("nan_color")) style.nan_color = read_color_codes(table, "nan_color");
+  read_bond_keys(table, style);
   table.read("select", style.select);
   table.read("wrap", style.wrap);
   table.read("replicate", style.replicate);

@@ -74,6 +74,7 @@ std::optional<TomlParticles> ParticleTable::read() {
   keys_.style.chosen = find_choices(options_.choices, table_.path());
   keys_.style.lacks_kinds = options_.frame.has_value();
   keys_.file.wanted = columns_of(keys_.style);
+  keys_.file.most_bonded = most_bonded_of(keys_.style);
   auto frame = read_frame();
   if (!frame) return std::nullopt;
   const std::size_t of_file = frame->notes.size();
@@ -86,6 +87,7 @@ std::optional<TomlParticles> ParticleTable::read() {
   TomlParticles particles{std::move(made).value(), std::move(facts_), {}};
   const ParticleSpheres& spheres = particles.spheres;
   particles.facts.spheres = spheres.size();
+  particles.facts.bonds = spheres.bonds();
   particles.facts.radius_source = spheres.radius_source();
   particles.facts.colors = spheres.colors();
   particles.facts.cell = spheres.cell();

@@ -1,0 +1,143 @@
+#include "render/files/particles/bond_capsules.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "core/math/geometry.h"
+#include "render/files/particles/cell_fractions.h"
+
+namespace boule {
+namespace {
+
+using ImagePlace = std::array<std::int64_t, 3>;
+
+/// One end of a bond, in the coordinates of the spheres.
+struct BondEnd {
+  Vec3d center;
+  double radius;
+  MaterialRef material;
+};
+
+/// Where a bond's materials meet, as a share of its length.
+double middle_of(const BondEnd& a, const BondEnd& b) {
+  const Vec3d way = b.center - a.center;
+  const double length = std::sqrt(dot(way, way));
+  return length > 0 ? std::clamp(0.5 + (a.radius - b.radius) / (2 * length), 0.0, 1.0) : 0.5;
+}
+
+class BondDrawer {
+ public:
+  BondDrawer(const BondedParticles& particles, const BondLook& look, std::vector<Capsule>& capsules)
+      : particles_(particles), look_(look), capsules_(capsules) {
+    if (particles.cell) fractions_ = CellFractions::of(*particles.cell);
+  }
+
+  void draw(const Bond& bond, const ImagePlace& place) {
+    ImagePlace other{}, before{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      other[k] = place[k] + bond.image[k];
+      before[k] = place[k] - bond.image[k];
+    }
+    const bool ends_inside = is_inside(other);
+    add_pieces(end(bond.a, place), end(bond.b, other), 0,
+               ends_inside ? 1 : way_out(bond.a, place, bond.b, other));
+    if (is_inside(before)) return;
+    add_pieces(end(bond.a, before), end(bond.b, place), 1 - way_out(bond.b, place, bond.a, before),
+               1);
+  }
+
+ private:
+  [[nodiscard]] bool is_inside(const ImagePlace& place) const {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (place[k] < 0 || place[k] >= particles_.images.counts()[k]) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] BondEnd end(std::uint32_t particle, const ImagePlace& place) const {
+    const MaterialRef own = particles_.materials[particle];
+    return {(particles_.positions[particle] - particles_.origin) + particles_.images.shift(place),
+            static_cast<double>(particles_.radii[particle]), look_.material.value_or(own)};
+  }
+
+  /// The share of the way from an image that is shown to one that is not, up to the face of all
+  /// images; half of it where no face lies between them.
+  [[nodiscard]] double way_out(std::uint32_t from, const ImagePlace& place, std::uint32_t to,
+                               const ImagePlace& other) const {
+    double way = 1;
+    for (std::size_t k = 0; k < 3 && fractions_; ++k) {
+      const std::int64_t count = particles_.images.counts()[k];
+      if (other[k] >= 0 && other[k] < count) continue;
+      const double face = other[k] < 0 ? 0 : static_cast<double>(count);
+      const double begin =
+          fractions_->fraction(k, particles_.positions[from]) + static_cast<double>(place[k]);
+      const double stop =
+          fractions_->fraction(k, particles_.positions[to]) + static_cast<double>(other[k]);
+      const double share = (face - begin) / (stop - begin);
+      way = std::min(way, share >= 0 && share <= 1 ? share : 0.5);
+    }
+    return way;
+  }
+
+  /// The part of a bond from one share of its length to another.
+  void add_pieces(const BondEnd& a, const BondEnd& b, double from, double to) {
+    const bool is_one = a.material == b.material;
+    const double middle = is_one ? 1 : middle_of(a, b);
+    if (from < middle) add(a, b, from, std::min(to, middle), a.material);
+    if (to > middle) add(a, b, std::max(from, middle), to, b.material);
+  }
+
+  void add(const BondEnd& a, const BondEnd& b, double from, double to, MaterialRef material) {
+    const auto at = [&](double share) {
+      if (share == 0) return vec_cast<float>(a.center);
+      if (share == 1) return vec_cast<float>(b.center);
+      return vec_cast<float>(a.center + (b.center - a.center) * share);
+    };
+    if (from < to) capsules_.push_back({at(from), at(to), look_.radius, material});
+  }
+
+  const BondedParticles& particles_;
+  const BondLook& look_;
+  std::vector<Capsule>& capsules_;
+  std::optional<CellFractions> fractions_;
+};
+
+}  // namespace
+
+void append_bonds(const BondedParticles& particles, const std::vector<Bond>& bonds,
+                  const BondLook& look, std::vector<Capsule>& capsules) {
+  BondDrawer drawer(particles, look, capsules);
+  for (std::size_t image = 0; image < particles.images.size(); ++image) {
+    const ImagePlace place = particles.images.place(image);
+    for (const Bond& bond : bonds) drawer.draw(bond, place);
+  }
+}
+
+void append_cell_edges(const BondedParticles& particles, const BondLook& look,
+                       std::vector<Capsule>& capsules) {
+  const ParticleCell& cell = *particles.cell;
+  std::array<Vec3d, 3> edges{cell.a, cell.b, cell.c};
+  for (std::size_t k = 0; k < 3; ++k) {
+    edges[k] = edges[k] * static_cast<double>(particles.images.counts()[k]);
+  }
+  const Vec3d corner = cell.origin - particles.origin;
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (edges[k] == Vec3d{}) continue;
+    const Vec3d &u = edges[(k + 1) % 3], &v = edges[(k + 2) % 3];
+    for (const Vec3d& side : {Vec3d{}, u, u + v, v}) {
+      const Vec3d begin = corner + side;
+      capsules.push_back({vec_cast<float>(begin), vec_cast<float>(begin + edges[k]), look.radius,
+                          look.material.value_or(MaterialRef())});
+    }
+  }
+}
+
+float cell_edge_radius(const ParticleCell& cell) {
+  const Vec3d across = cell.a + cell.b + cell.c;
+  constexpr double share = 0.0025;
+  return static_cast<float>(share * std::sqrt(dot(across, across)));
+}
+
+}  // namespace boule

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/scene/primitive.h"
+#include "render/files/particle_file/frame/particle_frame.h"
+#include "render/files/particles/bond_finder.h"
+#include "render/files/particles/cell_images.h"
+#include "render/files/particles/particle_values.h"
+
+namespace boule {
+
+/// What bonds are drawn from. It is a view.
+struct BondedParticles {
+  const std::vector<Vec3d>& positions;
+  const ParticleValues<float>& radii;
+  const ParticleValues<MaterialRef>& materials;
+  const std::optional<ParticleCell>& cell;
+  const CellImages& images;
+  Vec3d origin{};  ///< is subtracted in double, as from spheres
+};
+
+/// How bonds look.
+struct BondLook {
+  float radius = 0;
+  std::optional<MaterialRef> material{};  ///< of all; none: half bonds have their particles'
+};
+
+/// Appends the capsules of bonds, of one image after the other: each bond is two halves, which meet
+/// in the middle of what is seen between both spheres, or one capsule if both halves are of one
+/// material. Their ends are the centres of the spheres, to the bit. A bond that leaves all images
+/// of the cell is two pieces, one at each end, which end at the cell's faces.
+void append_bonds(const BondedParticles& particles, const std::vector<Bond>& bonds,
+                  const BondLook& look, std::vector<Capsule>& capsules);
+
+/// Appends the edges of the box that all images of the cell fill. Edges of length 0 are left out.
+void append_cell_edges(const BondedParticles& particles, const BondLook& look,
+                       std::vector<Capsule>& capsules);
+
+/// The radius of such edges, by the size of the cell.
+float cell_edge_radius(const ParticleCell& cell);
+
+}  // namespace boule

@@ -1,0 +1,118 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/base/float_environment.h"
+#include "render/files/particles/particle_columns.h"
+#include "render/files/particles/particle_spheres.h"
+#include "render/memory/available_memory.h"
+
+// What particles show besides spheres.
+
+namespace boule {
+namespace {
+
+/// Between white paper and a dark background.
+constexpr SrgbColor edge_color{0x80, 0x80, 0x80};
+
+bool is_capsule(double radius) { return radius > 0 && static_cast<float>(radius) > 0; }
+
+}  // namespace
+
+/// Finds the bonds, and gives the spheres the radii that go with them.
+Status ParticleSpheres::add_bonds(const ParticleStyle& style, const BondPlan& plan,
+                                  RadiusSource& source, const ParticleNamer& name_of,
+                                  const ParallelFor& parallel_for) {
+  ParticleFrame& frame = *frame_;
+  if (style.bond_color)
+    bond_look_.material = MaterialRef::colored(style.material, *style.bond_color);
+  if (style.cell) {
+    edge_look_ = {cell_edge_radius(*frame.cell), MaterialRef::colored(style.material, edge_color)};
+  }
+  auto bonds = make_bonds(frame, plan, radii_, images_.size(), parallel_for);
+  if (!bonds) return bonds.error();
+  bonds_ = std::move(bonds).value();
+  const bool fills_space = plan.shape == ParticleShape::space_filling;
+  if (fills_space && bonds_.empty() && !style.arrows) return {};
+  double radius = choose_bond_radius(frame, style, plan, smallest_radius_, own_);
+  if (plan.shape == ParticleShape::sticks) radius *= style.scale;
+  bond_look_.radius = static_cast<float>(radius);
+  if (frame.size() > 0 && !is_capsule(radius)) {
+    return Diagnostic::about("bond_radius", "is too small or too large for a capsule");
+  }
+  if (fills_space || frame.size() == 0) return {};
+  source = shaped_radii(std::move(source), frame, style, plan, radius / style.scale);
+  auto radii = make_radii(frame, source, style.scale, name_of, parallel_for);
+  if (!radii) return radii.error();
+  radii_ = std::move(radii.value().radii);
+  smallest_radius_ = radii.value().smallest;
+  return {};
+}
+
+/// Reads the vectors that are drawn.
+Status ParticleSpheres::add_arrows(const ParticleStyle& style) {
+  if (!style.arrows || frame_->size() == 0) return {};
+  if (auto done = check_memory(frame_->size() * (sizeof(Vec3d) + sizeof(Capsule) * images_.size()),
+                               "the arrows need", "arrows");
+      !done) {
+    return done;
+  }
+  arrows_.resize(frame_->size());
+  std::vector<double> numbers(frame_->size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto column = find_particle_numbers(*frame_, style.arrows->names[k], "arrows");
+    if (!column) return column.error();
+    column.value().read(0, numbers.size(), numbers.data());
+    double Vec3d::*const axis = std::array{&Vec3d::x, &Vec3d::y, &Vec3d::z}[k];
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      arrows_[i].*axis = numbers[i] * style.arrows->scale;
+  }
+  return {};
+}
+
+Status ParticleSpheres::append_capsules_to(std::vector<Capsule>& capsules,
+                                           const Vec3d& origin) const {
+  append_cell_edges_to(capsules, origin);
+  return append_capsules_of(images_, capsules, origin);
+}
+
+Status ParticleSpheres::append_first_capsules_to(std::vector<Capsule>& capsules,
+                                                 const Vec3d& origin) const {
+  return append_capsules_of(CellImages(frame_->cell.value_or(ParticleCell()), {1, 1, 1}), capsules,
+                            origin);
+}
+
+void ParticleSpheres::append_cell_edges_to(std::vector<Capsule>& capsules,
+                                           const Vec3d& origin) const {
+  if (!edge_look_) return;
+  append_cell_edges({frame_->positions, radii_, materials_, frame_->cell, images_, origin},
+                    *edge_look_, capsules);
+}
+
+Status ParticleSpheres::append_capsules_of(const CellImages& images, std::vector<Capsule>& capsules,
+                                           const Vec3d& origin) const {
+  const FloatEnvironment environment;
+  if (bonds_.empty() && arrows_.empty()) return {};
+  const std::size_t first = capsules.size();
+  capsules.reserve(first + (2 * bonds_.size() + arrows_.size()) * images.size());
+  const CellImages shown(frame_->cell.value_or(ParticleCell()), images.counts());
+  append_bonds({frame_->positions, radii_, materials_, frame_->cell, shown, origin}, bonds_,
+               bond_look_, capsules);
+  for (std::size_t image = 0; image < images.size() && !arrows_.empty(); ++image) {
+    const Vec3d shift = images.shift(image);
+    for (std::size_t i = 0; i < arrows_.size(); ++i) {
+      const Vec3d begin = (frame_->positions[i] - origin) + shift, &way = arrows_[i];
+      if (way == Vec3d{} || std::isnan(way.x + way.y + way.z)) continue;  // none, or missing
+      capsules.push_back({vec_cast<float>(begin), vec_cast<float>(begin + way), bond_look_.radius,
+                          bond_look_.material.value_or(materials_[i])});
+    }
+  }
+  const auto wrong =
+      std::find_if(capsules.begin() + static_cast<std::ptrdiff_t>(first), capsules.end(),
+                   [](const Capsule& one) { return find_problem(one).has_value(); });
+  if (wrong == capsules.end()) return {};
+  capsules.resize(first);
+  return Diagnostic::about("file", "a bond or an arrow ends too far from the origin for a capsule");
+}
+
+}  // namespace boule
