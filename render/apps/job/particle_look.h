@@ -56,7 +56,7 @@ struct LookOptions {
   std::string bonds{};                            ///< a name of BondRule, or a number
   std::optional<double> bond_radius{};            ///< > 0
   std::string bond_color{};                       ///< of all bonds; empty: of their particles
-  bool cell = false;                              ///< the edges of the cell
+  bool cell_edges = false;                        ///< are drawn
   std::vector<std::string> arrows{};              ///< columns of vectors: three, or their one name
   std::optional<double> arrow_scale{};            ///< times the vectors, > 0
   std::optional<double> scale{};                  ///< of the radii, > 0

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "core/base/float_environment.h"
@@ -15,6 +17,14 @@ namespace {
 /// Between white paper and a dark background.
 constexpr SrgbColor edge_color{0x80, 0x80, 0x80};
 
+/// The column of a vector's x, y or z.
+std::string arrow_column(const ParticleFrame& frame, const ArrowColumns& arrows, std::size_t axis) {
+  if (arrows.names.size() == 3) return arrows.names[axis];
+  const std::string name = arrows.names.front() + std::string(1, "xyz"[axis]);
+  const std::string other = arrows.names.front() + "_" + std::string(1, "xyz"[axis]);
+  return find_number_column(frame, other) != nullptr ? other : name;
+}
+
 bool is_capsule(double radius) { return radius > 0 && static_cast<float>(radius) > 0; }
 
 }  // namespace
@@ -26,7 +36,7 @@ Status ParticleSpheres::add_bonds(const ParticleStyle& style, const BondPlan& pl
   ParticleFrame& frame = *frame_;
   if (style.bond_color)
     bond_look_.material = MaterialRef::colored(style.material, *style.bond_color);
-  if (style.cell) {
+  if (style.cell_edges) {
     edge_look_ = {cell_edge_radius(*frame.cell), MaterialRef::colored(style.material, edge_color)};
   }
   auto bonds = make_bonds(frame, plan, radii_, images_.size(), parallel_for);
@@ -60,7 +70,8 @@ Status ParticleSpheres::add_arrows(const ParticleStyle& style) {
   arrows_.resize(frame_->size());
   std::vector<double> numbers(frame_->size());
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto column = find_particle_numbers(*frame_, style.arrows->names[k], "arrows");
+    const auto column =
+        find_particle_numbers(*frame_, arrow_column(*frame_, *style.arrows, k), "arrows");
     if (!column) return column.error();
     column.value().read(0, numbers.size(), numbers.data());
     double Vec3d::*const axis = std::array{&Vec3d::x, &Vec3d::y, &Vec3d::z}[k];

@@ -37,7 +37,7 @@ Status check_cell(const ParticleFrame& frame, const ParticleStyle& style,
   const bool replicates = count_images(style.replicate) > 1;
   if (!frame.cell) {
     if (style.wrap) return Diagnostic::about("wrap", "the file tells no cell to wrap into");
-    if (style.cell) return Diagnostic::about("cell", "the file tells no cell to draw");
+    if (style.cell_edges) return Diagnostic::about("cell_edges", "the file tells no cell to draw");
     if (replicates) return Diagnostic::about("replicate", "the file tells no cell to replicate");
     return {};
   }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "render/files/particle_file/text/text_lines.h"
+#include "core/base/text.h"
 #include "render/files/particles/particle_columns.h"
 #include "render/files/particles/select_expression.h"
 
@@ -27,6 +27,12 @@ void add_color_columns(const ColorRule& rule, std::vector<std::string>& names) {
     }
   } else if (const auto* const mapped = std::get_if<MappedColors>(&rule)) {
     add_column_names(mapped->by, names);
+  }
+}
+
+void add_arrow_columns(const std::vector<std::string>& arrows, std::vector<std::string>& names) {
+  for (const std::string& name : arrows) {
+    add_column_names(arrows.size() == 1 ? "|" + name + "|" : name, names);
   }
 }
 
@@ -56,8 +62,7 @@ std::vector<std::string> columns_of(const ParticleStyle& style) {
   add_radius_columns(style.radius, names);
   add_color_columns(style.color, names);
   add_select_columns(style.select, names);
-  if (style.arrows)
-    names.insert(names.end(), style.arrows->names.begin(), style.arrows->names.end());
+  if (style.arrows) add_arrow_columns(style.arrows->names, names);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;

@@ -60,8 +60,9 @@ struct MappedColors {
 
 /// A vector at each particle, from its centre.
 struct ArrowColumns {
-  std::array<std::string, 3> names;  ///< of numbers: x, y, z
-  double scale = 1;                  ///< times the vectors; > 0
+  /// Three columns of numbers, or the name that three have before x, y, z or _x, _y, _z.
+  std::vector<std::string> names;
+  double scale = 1;  ///< times the vectors; > 0
 };
 
 /// What a particle's colour is. Nothing: columns "color" or "red", "green", "blue" if there are
@@ -110,7 +111,7 @@ struct ParticleStyle {
   BondChoice bonds{};
   std::optional<double> bond_radius{};    ///< > 0; nothing: one that fits the shape
   std::optional<SrgbColor> bond_color{};  ///< nothing: half bonds have their particles' colours
-  bool cell = false;                      ///< with the edges of the cell
+  bool cell_edges = false;                ///< are drawn
   std::optional<ArrowColumns> arrows{};
   /// Which particles: "type == 1 && x > 0", 'species == "Fe"' (SelectExpression); empty: all.
   std::string select{};

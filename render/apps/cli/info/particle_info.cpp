@@ -90,6 +90,7 @@ Json picture_info(const LoadedScene& loaded) {
   const Scene& scene = loaded.scene;
   const ParticleFacts& facts = loaded.particles.front();
   Json json = {{"spheres", facts.spheres},
+               {"bonds", facts.bonds},
                {"radius", facts.radius_source},
                {"color", colors_info(facts.colors)},
                {"origin", vector_info(loaded.origin)}};

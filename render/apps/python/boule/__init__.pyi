@@ -21,6 +21,7 @@ _Frame = Literal["scene", "camera"]
 _Order = Literal["rows", "tiles", "progressive", "frameless"]
 _Polygons = Literal["plane", "skip", "error"]
 _Look = Literal["paper", "plain", "dark"]
+_Style = Literal["space-filling", "balls-and-sticks", "sticks"]
 
 def isa() -> str: ...
 
@@ -430,6 +431,13 @@ class Particles:
     color: _Color | _Key | None
     colors: Mapping[str, _Color] | None
     nan_color: _Color | None
+    style: _Style | None
+    bonds: float | str | None
+    bond_radius: float | None
+    bond_color: _Color | None
+    cell_edges: bool | None
+    arrows: str | Sequence[str] | None
+    arrow_scale: float | None
     select: str | None
     wrap: bool | None
     replicate: Sequence[int] | None
@@ -448,6 +456,13 @@ class Particles:
         color: _Color | _Key | None = ...,
         colors: Mapping[str, _Color] | None = ...,
         nan_color: _Color | None = ...,
+        style: _Style | None = ...,
+        bonds: float | str | None = ...,
+        bond_radius: float | None = ...,
+        bond_color: _Color | None = ...,
+        cell_edges: bool | None = ...,
+        arrows: str | Sequence[str] | None = ...,
+        arrow_scale: float | None = ...,
         select: str | None = ...,
         wrap: bool | None = ...,
         replicate: Sequence[int] | None = ...,
@@ -788,6 +803,13 @@ def load(
     radius: float | str | None = ...,
     radii: str | Mapping[str, float] | None = ...,
     scale: float | None = ...,
+    style: _Style | None = ...,
+    bonds: float | str | None = ...,
+    bond_radius: float | None = ...,
+    bond_color: str | None = ...,
+    cell_edges: bool = ...,
+    arrows: str | Sequence[str] | None = ...,
+    arrow_scale: float | None = ...,
     select: str | None = ...,
     wrap: bool = ...,
     replicate: str | Sequence[int] | None = ...,
@@ -817,6 +839,13 @@ def frames(
     radius: float | str | None = ...,
     radii: str | Mapping[str, float] | None = ...,
     scale: float | None = ...,
+    style: _Style | None = ...,
+    bonds: float | str | None = ...,
+    bond_radius: float | None = ...,
+    bond_color: str | None = ...,
+    cell_edges: bool = ...,
+    arrows: str | Sequence[str] | None = ...,
+    arrow_scale: float | None = ...,
     select: str | None = ...,
     wrap: bool = ...,
     replicate: str | Sequence[int] | None = ...,
@@ -846,6 +875,13 @@ def from_particles(
     radius: float | str | None = ...,
     radii: str | Mapping[str, float] | None = ...,
     scale: float | None = ...,
+    style: _Style | None = ...,
+    bonds: float | str | None = ...,
+    bond_radius: float | None = ...,
+    bond_color: str | None = ...,
+    cell_edges: bool = ...,
+    arrows: str | Sequence[str] | None = ...,
+    arrow_scale: float | None = ...,
     select: str | None = ...,
     wrap: bool = ...,
     replicate: str | Sequence[int] | None = ...,
@@ -870,6 +906,13 @@ def from_ase(
     radius: float | str | None = ...,
     radii: str | Mapping[str, float] | None = ...,
     scale: float | None = ...,
+    style: _Style | None = ...,
+    bonds: float | str | None = ...,
+    bond_radius: float | None = ...,
+    bond_color: str | None = ...,
+    cell_edges: bool = ...,
+    arrows: str | Sequence[str] | None = ...,
+    arrow_scale: float | None = ...,
     select: str | None = ...,
     wrap: bool = ...,
     replicate: str | Sequence[int] | None = ...,
@@ -926,6 +969,13 @@ def render(
     radius: float | str | None = ...,
     radii: str | Mapping[str, float] | None = ...,
     scale: float | None = ...,
+    style: _Style | None = ...,
+    bonds: float | str | None = ...,
+    bond_radius: float | None = ...,
+    bond_color: str | None = ...,
+    cell_edges: bool = ...,
+    arrows: str | Sequence[str] | None = ...,
+    arrow_scale: float | None = ...,
     select: str | None = ...,
     wrap: bool = ...,
     replicate: str | Sequence[int] | None = ...,

@@ -52,7 +52,8 @@ def with_look(*names, also=()):
 # What is said of particles in memory: not how a file is read.
 _OF_MEMORY = (
     "look", "quick", "floor", "color", "colors", "map", "range", "nan_color", "radius", "radii",
-    "scale", "select", "wrap", "replicate", "view", "up", "roll", "ortho", "fov", "margin",
+    "scale", "style", "bonds", "bond_radius", "bond_color", "cell_edges", "arrows", "arrow_scale",
+    "select", "wrap", "replicate", "view", "up", "roll", "ortho", "fov", "margin",
 )  # fmt: skip
 
 
@@ -66,7 +67,10 @@ def load(source, *, frame=None, polygons="plane", **look):
     look: for files of particles, as the options of `boule render`: look ("paper", "plain", "dark"),
         quick, floor, input_format, columns (names, "-" skips one), water, color, colors (a
         dictionary of colours by kind), map, range, nan_color, radius, radii (a dictionary of radii
-        by species), scale, select, wrap, replicate, view, up, roll, ortho, fov, margin.
+        by species), scale, style ("space-filling", "balls-and-sticks", "sticks"), bonds (a rule,
+        or a distance), bond_radius, bond_color, cell_edges, arrows (three columns, or the one name that
+        they have before x, y, z), arrow_scale, select, wrap, replicate, view, up, roll, ortho,
+        fov, margin.
 
     Raises boule.Error with file, line, column and key.
     """

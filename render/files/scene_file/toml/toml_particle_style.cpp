@@ -74,15 +74,13 @@ BondChoice read_bonds(TomlTable& table) {
 ArrowColumns read_arrows(TomlTable& table) {
   ArrowColumns arrows;
   if (table.has_text("arrows")) {
-    std::string name;
-    table.read("arrows", name);
-    arrows.names = {name + "x", name + "y", name + "z"};
+    table.read("arrows", arrows.names.emplace_back());
   } else {
-    std::vector<std::string> columns;
-    table.read("arrows", columns);
-    if (columns.size() != 3) table.report("arrows", "expected three columns, or their one name");
-    columns.resize(3);
-    std::move(columns.begin(), columns.end(), arrows.names.begin());
+    table.read("arrows", arrows.names);
+  }
+  if ((arrows.names.size() != 1 && arrows.names.size() != 3) || arrows.names.front().empty()) {
+    table.report("arrows", "expected three columns, or the name that they have before x, y, z");
+    arrows.names = {"v"};
   }
   arrows.scale = read_positive(table, "arrow_scale", arrows.scale);
   return arrows;
@@ -94,7 +92,7 @@ void read_bond_keys(TomlTable& table, ParticleStyle& style) {
   style.bonds = read_bonds(table);
   if (table.has("bond_radius")) style.bond_radius = read_positive(table, "bond_radius", 1);
   if (table.has("bond_color")) style.bond_color = read_color_codes(table, "bond_color");
-  table.read("cell", style.cell);
+  table.read("cell_edges", style.cell_edges);
   if (table.has("arrows")) style.arrows = read_arrows(table);
 }
 

@@ -35,6 +35,13 @@ TEST(ParticleLook, HasExactlyTheOptions) {
   look.range = {{-1, 2.5}};
   look.colors = {{"O", "crimson"}, {"a\"b", "#336699"}};
   look.nan_color = "white";
+  look.style = ParticleShape::balls_and_sticks;
+  look.bonds = "1.80";
+  look.bond_radius = 0.1;
+  look.bond_color = "Silver";
+  look.cell_edges = true;
+  look.arrows = {"fx", "fy", "fz"};
+  look.arrow_scale = 2;
   look.wrap = true;
   look.replicate = {{2, 1, 3}};
   EXPECT_THAT(scene_of(look), HasSubstr("file = \"run.xyz\"\n"
@@ -45,6 +52,13 @@ TEST(ParticleLook, HasExactlyTheOptions) {
                                         "radius = 0.50\n"
                                         "radii = { \"Na\" = 1.02 }\n"
                                         "scale = 0.1\n"
+                                        "style = \"balls-and-sticks\"\n"
+                                        "bonds = 1.80\n"
+                                        "bond_radius = 0.1\n"
+                                        "bond_color = \"Silver\"\n"
+                                        "cell_edges = true\n"
+                                        "arrows = [\"fx\", \"fy\", \"fz\"]\n"
+                                        "arrow_scale = 2\n"
                                         "select = \"name == \\\"CA\\\"\"\n"
                                         "wrap = true\n"
                                         "replicate = [2, 1, 3]\n"

@@ -130,7 +130,7 @@ TEST(ParticleBonds, WhatFilesLackIsAnError) {
   EXPECT_EQ(error_of(water(), {.bonds = BondRule::file}), "bonds: the file lists no bonds");
   EXPECT_THAT(error_of(water(), {.radius = 1.0, .shape = ParticleShape::sticks}),
               HasSubstr("radius: sticks have one radius"));
-  EXPECT_EQ(error_of(water(), {.cell = true}), "cell: the file tells no cell to draw");
+  EXPECT_EQ(error_of(water(), {.cell_edges = true}), "cell_edges: the file tells no cell to draw");
   EXPECT_EQ(bonds_of(row_of_particles(2), BondRule::automatic), 0U);
   EXPECT_EQ(bonds_of(ParticleFrame(), BondRule::file), 0U);
 }
