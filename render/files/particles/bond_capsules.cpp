@@ -95,7 +95,8 @@ class BondDrawer {
       if (share == 1) return vec_cast<float>(b.center);
       return vec_cast<float>(a.center + (b.center - a.center) * share);
     };
-    if (from < to) capsules_.push_back({at(from), at(to), look_.radius, material});
+    constexpr double least = 1e-6;  // less is an error of rounding
+    if (to - from > least) capsules_.push_back({at(from), at(to), look_.radius, material});
   }
 
   const BondedParticles& particles_;

@@ -234,7 +234,7 @@ class BondFinder {
       if (!(square > least && square < reach * reach)) return;
       const CellSteps image = other.image + steps;
       if (other.particle == i && !(image > CellSteps{})) return;
-      if (are_known(i, other.particle)) return;
+      if (are_known(i, other.particle) || is_spent(i) || is_spent(other.particle)) return;
       found.push_back({{i, other.particle, image}, square});
     });
     std::sort(found.begin() + first, found.end(), [](const FoundBond& p, const FoundBond& q) {
@@ -245,6 +245,9 @@ class BondFinder {
   [[nodiscard]] bool are_known(std::uint32_t a, std::uint32_t b) const {
     return !search_.known.empty() && search_.known[a] != 0 && search_.known[b] != 0;
   }
+
+  /// Its one bond is known.
+  [[nodiscard]] bool is_spent(std::uint32_t i) const { return is_single(i) && are_known(i, i); }
 
   [[nodiscard]] bool is_single(std::uint32_t i) const {
     return !search_.single.empty() && search_.single[i] != 0;

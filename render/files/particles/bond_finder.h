@@ -28,7 +28,8 @@ struct BondSearch {
   ParticleValues<double> reach;  ///< 0: of those that have no bonds; else above 0
   double tolerance = 0;          ///< >= 0
   double nearest = 0;            ///< >= 0
-  /// By particle: two of these are not bonded, because their bonds are known. Empty: none.
+  /// By particle: two of these are not bonded, because their bonds are known, and one that is
+  /// single has no more. Empty: none.
   std::vector<std::uint8_t> known{};
   /// By particle: it keeps one bond at most, that to the nearest particle which is none of these;
   /// where there is no such, that to the nearest of these. Empty: none.

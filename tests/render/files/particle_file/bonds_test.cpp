@@ -32,7 +32,7 @@ std::vector<std::array<std::uint32_t, 2>> bonds_of(const std::string& name,
 using Pair = std::array<std::uint32_t, 2>;
 
 std::string atom(const std::string& serial, const std::string& names, const std::string& x = "1") {
-  return "HETATM" + serial + " " + names + "       " + x + ".000   0.000   0.000  1.00  0.00\n";
+  return "HETATM" + serial + " " + names + "      " + x + ".000   0.000   0.000  1.00  0.00\n";
 }
 
 const std::string four_atoms = atom("   11", " C1  LIG A   1 ") + atom("   12", " C2  LIG A   1 ") +

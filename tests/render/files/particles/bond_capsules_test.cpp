@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/scene/number_text.h"
 #include "tests/render/files/particles/particle_frames.h"
 
@@ -20,14 +22,17 @@ std::vector<std::string> along_x(const std::vector<Capsule>& capsules) {
   std::vector<std::string> texts;
   for (const Capsule& one : capsules) {
     const char* const material = one.material == red ? "r" : one.material == blue ? "b" : "-";
-    std::string text = number_text(static_cast<double>(one.a.x)) + " ";
-    texts.push_back(text + number_text(static_cast<double>(one.b.x)) + " " + material);
+    // Where a face cuts them is rounded.
+    const auto place = [](float x) {
+      return number_text(std::round(static_cast<double>(x) * 1e5) / 1e5 + 0.0);
+    };
+    texts.push_back(place(one.a.x) + " " + place(one.b.x) + " " + material);
   }
   return texts;
 }
 
 struct Drawn {
-  std::vector<Vec3d> positions;
+  std::vector<Vec3d> positions{};
   std::vector<float> radii{1, 1};
   std::vector<MaterialRef> materials{red, blue};
   std::optional<ParticleCell> cell{};

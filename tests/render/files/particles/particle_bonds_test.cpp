@@ -55,7 +55,7 @@ ParticleFrame with_bonds(ParticleFrame frame, std::vector<ParticleBond> bonds, b
   return frame;
 }
 
-std::vector<float> radii_of(const ParticleFrame& frame, const ParticleStyle& style) {
+std::vector<float> shape_radii_of(const ParticleFrame& frame, const ParticleStyle& style) {
   std::vector<float> radii;
   for (const Sphere& sphere : spheres_of(frame, style)) radii.push_back(sphere.radius);
   return radii;
@@ -94,9 +94,9 @@ TEST(ParticleBonds, ContactsAreOfWholeRadii) {
   const ParticleFrame grains = row_with("radius", {0.5, 0.6, 0.3, 0.3});
   EXPECT_EQ(bonds_of(grains, BondRule::contacts), 1U);
   ParticleStyle style{.bonds = BondRule::contacts};
-  EXPECT_THAT(radii_of(grains, style), ElementsAre(0.25F, 0.3F, 0.15F, 0.15F));
+  EXPECT_THAT(shape_radii_of(grains, style), ElementsAre(0.25F, 0.3F, 0.15F, 0.15F));
   style.shape = ParticleShape::space_filling;
-  EXPECT_THAT(radii_of(grains, style), ElementsAre(0.5F, 0.6F, 0.3F, 0.3F));
+  EXPECT_THAT(shape_radii_of(grains, style), ElementsAre(0.5F, 0.6F, 0.3F, 0.3F));
 }
 
 TEST(ParticleBonds, FilesComeFirst) {
@@ -138,25 +138,25 @@ TEST(ParticleBonds, WhatFilesLackIsAnError) {
 TEST(ParticleBonds, SmallMoleculesWithBondsStartWithThem) {
   const auto bonded = with_bonds(water(), {{0, 1}, {0, 2}, {3, 4}, {3, 5}});
   EXPECT_EQ(capsules_of(bonded, {}).size(), 8U);
-  EXPECT_THAT(radii_of(bonded, {}), Each(testing::Lt(0.5F)));
+  EXPECT_THAT(shape_radii_of(bonded, {}), Each(testing::Lt(0.5F)));
   EXPECT_THAT(notes_of(bonded), HasSubstr("balls and sticks"));
   // Not if most have none, if radii are given, or if nobody wants bonds.
   EXPECT_THAT(capsules_of(with_bonds(water(), {{0, 1}}), {}), IsEmpty());
   EXPECT_THAT(capsules_of(bonded, {.radius = RadiusTable::vdw}), IsEmpty());
   EXPECT_THAT(capsules_of(bonded, {.bonds = BondRule::none}), IsEmpty());
   EXPECT_THAT(capsules_of(bonded, {.shape = ParticleShape::space_filling}), IsEmpty());
-  EXPECT_THAT(radii_of(bonded, {.bonds = BondRule::none}), Each(testing::Gt(1.1F)));
+  EXPECT_THAT(shape_radii_of(bonded, {.bonds = BondRule::none}), Each(testing::Gt(1.1F)));
 }
 
 TEST(ParticleBonds, WithoutListedBondsNothingChanges) {
   EXPECT_THAT(capsules_of(water(), {}), IsEmpty());
-  EXPECT_THAT(radii_of(water(), {}), Each(testing::Gt(1.1F)));
+  EXPECT_THAT(shape_radii_of(water(), {}), Each(testing::Gt(1.1F)));
   EXPECT_THAT(notes_of(water()), Not(HasSubstr("bonds")));
 }
 
 TEST(ParticleBonds, SticksAreOfOneRadius) {
   const ParticleStyle style{.shape = ParticleShape::sticks, .bond_radius = 0.3};
-  EXPECT_THAT(radii_of(water(), style), Each(0.3F));
+  EXPECT_THAT(shape_radii_of(water(), style), Each(0.3F));
   const auto capsules = capsules_of(water(), style);
   ASSERT_EQ(capsules.size(), 8U);
   EXPECT_EQ(capsules[0].radius, 0.3F);
@@ -166,16 +166,16 @@ TEST(ParticleBonds, SticksAreOfOneRadius) {
 TEST(ParticleBonds, GivenRadiiStayAsTheyAre) {
   const ParticleStyle style{
       .radius = 0.4, .shape = ParticleShape::balls_and_sticks, .bond_radius = 0.1};
-  EXPECT_THAT(radii_of(water(), style), Each(0.4F));
+  EXPECT_THAT(shape_radii_of(water(), style), Each(0.4F));
   const ParticleStyle oxygen{.radii = {{"O", 0.7}}, .shape = ParticleShape::balls_and_sticks};
-  EXPECT_EQ(radii_of(water(), oxygen)[0], 0.7F);
-  EXPECT_LT(radii_of(water(), oxygen)[1], 0.5F);
+  EXPECT_EQ(shape_radii_of(water(), oxygen)[0], 0.7F);
+  EXPECT_LT(shape_radii_of(water(), oxygen)[1], 0.5F);
 }
 
 TEST(ParticleBonds, HaveTheColorThatIsGiven) {
   const SrgbColor white{0xff, 0xff, 0xff};
   const auto capsules =
-      capsules_of(water(), {.shape = ParticleShape::sticks, .bond_color = white, .material = 3});
+      capsules_of(water(), {.material = 3, .shape = ParticleShape::sticks, .bond_color = white});
   ASSERT_EQ(capsules.size(), 4U);
   EXPECT_EQ(capsules[0].material, MaterialRef::colored(3, white));
 }
@@ -212,7 +212,7 @@ TEST(ParticleBonds, SeriesKeepTheirLook) {
   ParticleChoices grains = ParticleSpheres::make(first, style).value().own_choices();
   grains.add(ParticleSpheres::make(second, style).value().own_choices());
   grains.finish("all 2 frames");
-  const ParticleStyle of_series{.bonds = BondRule::contacts, .chosen = &grains};
+  const ParticleStyle of_series{.chosen = &grains, .bonds = BondRule::contacts};
   EXPECT_EQ(capsules_of(second, of_series)[0].radius, capsules_of(first, style)[0].radius);
 }
 
