@@ -14,11 +14,12 @@ namespace boule {
 namespace heading {
 
 /// What is read of a file of particles, how its picture looks, which particles are spheres and how
-/// large, and their colours.
+/// large, their colours, and what is drawn besides them.
 inline constexpr const char* particle_file = "file";
 inline constexpr const char* look = "look";
 inline constexpr const char* spheres = "spheres";
 inline constexpr const char* colors = "colors";
+inline constexpr const char* bonds = "bonds";
 
 }  // namespace heading
 
@@ -78,23 +79,6 @@ inline auto sphere_and_color_choices() {
                 "LIST", "Radii of species, such as Na=1.02,Cl=1.81 (those of --radius)"),
       choice<L>(spheres, "scale", &L::scale, TextRule{parse_above_0, above_0}, "S",
                 "Times all radii (1)"),
-      choice<L>(spheres, "style", &L::style, NameRule{}, "",
-                "Spheres that fill space, balls and sticks, or sticks (by the file)"),
-      choice<L>(
-          spheres, "bonds", &L::bonds,
-          TextRule{parse_bonds, "a number above 0 or one of " + list_bond_rules(), ',', hint_bonds},
-          "RULE",
-          "Bonds: auto, of the file, by distance, contacts, none, or a number: all that are "
-          "nearer (auto with sticks, else none)"),
-      choice<L>(spheres, "bond_radius", &L::bond_radius, TextRule{parse_above_0, above_0}, "R",
-                "Radius of bonds and arrows (by the style)"),
-      choice<L>(spheres, "cell_edges", &L::cell_edges, FlagRule{}, "",
-                "With the edges of the cell"),
-      choice<L>(spheres, "arrows", &L::arrows,
-                TextRule{parse_arrows, "three columns such as fx,fy,fz, or f for them"}, "COLUMNS",
-                "An arrow at each particle: three columns such as fx,fy,fz, or f for them"),
-      choice<L>(spheres, "arrow_scale", &L::arrow_scale, TextRule{parse_above_0, above_0}, "S",
-                "Times the vectors of --arrows (1)"),
       choice<L>(spheres, "select", &L::select,
                 TextRule{parse_words, "such as \"type == 1 && x > 0\""}, "EXPR",
                 "Which particles are shown, such as \"type == 1 && x > 0\" (all)"),
@@ -113,9 +97,6 @@ inline auto sphere_and_color_choices() {
           TextRule{parse_kind_colors, "KIND=COLOR,... with #rrggbb or names of CSS, each kind once",
                    ',', hint_kind_colors},
           "LIST", "Colours of kinds, such as O=crimson,7=#336699 (those of --color)"),
-      choice<L>(colors, "bond_color", &L::bond_color,
-                TextRule{parse_one_color, "a colour such as #ffffff or silver", ',', hint_color},
-                "COLOR", "Colour of all bonds (half bonds have their particles')"),
       choice<L>(colors, "map", &L::map,
                 TextRule{parse_map,
                          "one of " + list_color_maps() +
@@ -132,11 +113,39 @@ inline auto sphere_and_color_choices() {
   };
 }
 
+inline auto bond_choices() {
+  using L = LookOptions;
+  using namespace heading;
+  constexpr const char* above_0 = "a number above 0";
+  return std::tuple{
+      choice<L>(bonds, "style", &L::style, NameRule{}, "",
+                "Spheres that fill space, balls and sticks, or sticks (by the file)"),
+      choice<L>(
+          bonds, "bonds", &L::bonds,
+          TextRule{parse_bonds, "a number above 0 or one of " + list_bond_rules(), ',', hint_bonds},
+          "RULE",
+          "Bonds: auto, of the file, by distance, contacts, none, or a number: all that are "
+          "nearer (auto with sticks, else none)"),
+      choice<L>(bonds, "bond_radius", &L::bond_radius, TextRule{parse_above_0, above_0}, "R",
+                "Radius of bonds and arrows (by the style)"),
+      choice<L>(bonds, "cell_edges", &L::cell_edges, FlagRule{}, "", "With the edges of the cell"),
+      choice<L>(bonds, "arrows", &L::arrows,
+                TextRule{parse_arrows, "three columns such as fx,fy,fz, or f for them"}, "COLUMNS",
+                "An arrow at each particle: three columns such as fx,fy,fz, or f for them"),
+      choice<L>(bonds, "arrow_scale", &L::arrow_scale, TextRule{parse_above_0, above_0}, "S",
+                "Times the vectors of --arrows (1)"),
+      choice<L>(bonds, "bond_color", &L::bond_color,
+                TextRule{parse_one_color, "a colour such as #ffffff or silver", ',', hint_color},
+                "COLOR", "Colour of all bonds (half bonds have their particles')"),
+  };
+}
+
 }  // namespace detail
 
 /// The options of LookOptions, in the order of the help.
 inline auto look_choices() {
-  return std::tuple_cat(detail::file_and_view_choices(), detail::sphere_and_color_choices());
+  return std::tuple_cat(detail::file_and_view_choices(), detail::sphere_and_color_choices(),
+                        detail::bond_choices());
 }
 
 }  // namespace boule

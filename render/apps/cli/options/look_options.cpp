@@ -23,13 +23,14 @@ void add_file_options(CLI::App& app, LookOptions& look) {
 
 void add_look_options(CLI::App& app, LookOptions& look) {
   start_group(app, look_heading);
-  add_of(app, look, heading::particle_file, heading::look, heading::spheres, heading::colors);
+  add_of(app, look, heading::particle_file, heading::look, heading::spheres, heading::colors,
+         heading::bonds);
   app.get_option("--quick")->excludes("--look");
 }
 
 void add_shape_options(CLI::App& app, LookOptions& look) {
   start_group(app, look_heading);
-  add_of(app, look, heading::particle_file, heading::spheres);
+  add_of(app, look, heading::particle_file, heading::spheres, heading::bonds);
 }
 
 std::optional<UsageError> check_look_options(const CLI::App& app, LookOptions& look) {

@@ -93,7 +93,11 @@ void read_bond_keys(TomlTable& table, ParticleStyle& style) {
   if (table.has("bond_radius")) style.bond_radius = read_positive(table, "bond_radius", 1);
   if (table.has("bond_color")) style.bond_color = read_color_codes(table, "bond_color");
   table.read("cell_edges", style.cell_edges);
-  if (table.has("arrows")) style.arrows = read_arrows(table);
+  if (table.has("arrows")) {
+    style.arrows = read_arrows(table);
+  } else if (table.has("arrow_scale")) {
+    table.report("arrow_scale", "needs the vectors of arrows");
+  }
 }
 
 ColorRule read_color_text(TomlTable& table) {

@@ -35,13 +35,6 @@ TEST(ParticleLook, HasExactlyTheOptions) {
   look.range = {{-1, 2.5}};
   look.colors = {{"O", "crimson"}, {"a\"b", "#336699"}};
   look.nan_color = "white";
-  look.style = ParticleShape::balls_and_sticks;
-  look.bonds = "1.80";
-  look.bond_radius = 0.1;
-  look.bond_color = "Silver";
-  look.cell_edges = true;
-  look.arrows = {"fx", "fy", "fz"};
-  look.arrow_scale = 2;
   look.wrap = true;
   look.replicate = {{2, 1, 3}};
   EXPECT_THAT(scene_of(look), HasSubstr("file = \"run.xyz\"\n"
@@ -52,13 +45,6 @@ TEST(ParticleLook, HasExactlyTheOptions) {
                                         "radius = 0.50\n"
                                         "radii = { \"Na\" = 1.02 }\n"
                                         "scale = 0.1\n"
-                                        "style = \"balls-and-sticks\"\n"
-                                        "bonds = 1.80\n"
-                                        "bond_radius = 0.1\n"
-                                        "bond_color = \"Silver\"\n"
-                                        "cell_edges = true\n"
-                                        "arrows = [\"fx\", \"fy\", \"fz\"]\n"
-                                        "arrow_scale = 2\n"
                                         "select = \"name == \\\"CA\\\"\"\n"
                                         "wrap = true\n"
                                         "replicate = [2, 1, 3]\n"
@@ -70,6 +56,28 @@ TEST(ParticleLook, HasExactlyTheOptions) {
                                         "by = \"|v|\"\n"
                                         "map = [\"#000000\", \"#ff8000\"]\n"
                                         "range = [-1, 2.5]\n\n"));
+}
+
+TEST(ParticleLook, HasTheOptionsOfBonds) {
+  LookOptions look;
+  look.style = ParticleShape::balls_and_sticks;
+  look.bonds = "1.80";
+  look.bond_radius = 0.1;
+  look.bond_color = "Silver";
+  look.cell_edges = true;
+  look.arrows = {"fx", "fy", "fz"};
+  look.arrow_scale = 2;
+  EXPECT_THAT(scene_of(look), HasSubstr("style = \"balls-and-sticks\"\n"
+                                        "bonds = 1.80\n"
+                                        "bond_radius = 0.1\n"
+                                        "bond_color = \"Silver\"\n"
+                                        "cell_edges = true\n"
+                                        "arrows = [\"fx\", \"fy\", \"fz\"]\n"
+                                        "arrow_scale = 2\n"));
+  look.bonds = "auto";
+  look.arrows = {"f"};
+  EXPECT_THAT(scene_of(look), HasSubstr("\nbonds = \"auto\"\n"));
+  EXPECT_THAT(scene_of(look), HasSubstr("\narrows = \"f\"\n"));
 }
 
 TEST(ParticleLook, ColorsOfOneKindStandByThemselves) {
