@@ -62,7 +62,7 @@ def test_arrays_are_kept_and_told(number):
     assert not capsules.a.flags.writeable
     assert capsules.colors.tolist() == [[255, 0, 0], [0, 255, 0], [0, 0, 255]]
     assert capsules.range is None and repr(capsules) == "<boule.Capsules, 3 of them>"
-    mapped = boule.Capsules(A, B, R, scalar=[1, 2, 3], map="gray", range=(1, 3))
+    mapped = boule.Capsules(A, B, R, scalar=[1, 2, 3], map="grey", range=(1, 3))
     assert mapped.range == [1, 3]
     assert mapped.colors[0].tolist() != mapped.colors[2].tolist()
 
