@@ -32,7 +32,7 @@ TEST(Surface, SphereSurfacesFaceTheViewer) {
   EXPECT_EQ(outer.mirrored, (Vec3d{0, 0, 1}));
   EXPECT_EQ(outer.cosine, 1);
   EXPECT_EQ(outer.reach, 7);
-  EXPECT_TRUE(outer.sphere && !outer.inner);
+  EXPECT_TRUE(outer.solid && !outer.inner);
   const Surface inner = hit_by(scene, {{0, 0, 1}, {0, 0, 0.5f}});
   EXPECT_EQ(inner.point, (Vec3d{0, 0, 2}));
   EXPECT_EQ(inner.normal, (Vec3d{0, 0, -1}));
@@ -44,7 +44,7 @@ TEST(Surface, PlaneSurfacesFaceTheViewer) {
   const Surface above = hit_by(scene, {{0, 3, 0}, {0, -1, 0}});
   EXPECT_EQ(above.point, (Vec3d{0, 1, 0}));
   EXPECT_EQ(above.normal, (Vec3d{0, 1, 0}));
-  EXPECT_TRUE(!above.sphere && !above.inner);
+  EXPECT_TRUE(!above.solid && !above.inner);
   const Surface below = hit_by(scene, {{0, -3, 0}, {0, 1, 0}});
   EXPECT_EQ(below.normal, (Vec3d{0, -1, 0}));
   EXPECT_TRUE(below.inner);
