@@ -39,6 +39,24 @@ TEST(Surface, SphereSurfacesFaceTheViewer) {
   EXPECT_TRUE(inner.inner);
 }
 
+TEST(Surface, CapsuleSurfacesFaceTheViewer) {
+  const Capsule capsule{{0, 0, 0}, {4, 0, 0}, 2, {}};
+  const auto surface_met_by = [&capsule](const Ray& ray) {
+    return find_surface(capsule, ray, {reference::intersect(ray, capsule, false), 0});
+  };
+  const Surface tube = surface_met_by({{1, 0, 5}, {0, 0, -3}});
+  EXPECT_EQ(tube.point, (Vec3d{1, 0, 2}));
+  EXPECT_EQ(tube.normal, (Vec3d{0, 0, 1}));
+  EXPECT_TRUE(tube.solid && !tube.inner);
+  const Surface end = surface_met_by({{9, 0, 0}, {-1, 0, 0}});
+  EXPECT_EQ(end.point, (Vec3d{6, 0, 0}));
+  EXPECT_EQ(end.normal, (Vec3d{1, 0, 0}));
+  const Surface inner = surface_met_by({{3, 1, 0}, {0, 0.5f, 0}});
+  EXPECT_EQ(inner.point, (Vec3d{3, 2, 0}));
+  EXPECT_EQ(inner.normal, (Vec3d{0, -1, 0}));
+  EXPECT_TRUE(inner.solid && inner.inner);
+}
+
 TEST(Surface, PlaneSurfacesFaceTheViewer) {
   const Primitives scene{{}, {{{0, 1, 0}, {0, 4, 0}, 0}}};
   const Surface above = hit_by(scene, {{0, 3, 0}, {0, -1, 0}});
