@@ -127,7 +127,10 @@ TEST(TomlCapsules, BadRowsAreNamed) {
        "(1, 7)",
        "colors = \"red.npy\"\n",
        "has shape (2, 3), expected (1, 3): a row for each capsule"},
-      {{0, 0, 0, 1, 0, 0, 1}, "(1, 7)", "radii = 1\n", "did you mean 'radius'"},
+      {{0, 0, 0, 1, 0, 0, 1},
+       "(1, 7)",
+       "radii = 1\n",
+       "unknown key 'radii', expected 'file', 'radius'"},
   };
   for (const Case& one : cases) {
     const auto loaded = load_beside(rows<float>(one.shape, one.numbers),
