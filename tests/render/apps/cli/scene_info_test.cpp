@@ -66,6 +66,7 @@ class SceneInfo : public testing::TestWithParam<Kind> {
     write_numbers("b_colors.npy", "(1, 3)", {0.5F, 0.5F, 0.75F});
     write_numbers("a_scalar.npy", "(1,)", {0});
     write_numbers("b_scalar.npy", "(1,)", {1});
+    write_numbers("c.npy", "(1, 6)", {0, 0, 0, 1, 0, 0});
     const std::string cell =
         "Lattice=\"4 0 0 0 4 0 0 0 4\" Properties=species:S:1:pos:R:3:charge:R:1\n";
     const std::string frame = "2\n" + cell + "O 1 1 1 0.5\nH 5 1 2 0.25\n";
