@@ -135,9 +135,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (!scene.value().packed) return 0;
   const SphereMeasure measures[] = {{{0.6, 0, 0.8}, 1}, {{-0.6, 0.8, 0}, 0}};
   require(!extreme_spheres(*scene.value().packed, measures).empty(), "some sphere is outermost");
-  const std::vector<Plane> planes = scene.value().planes;
   const std::vector<Ray> rays = rays_to(*scene.value().packed);
-  const Geometry geometry = geometry_of(scene.value(), std::nullopt, planes, serial_for);
+  const Geometry geometry = geometry_of(scene.value(), std::nullopt, serial_for);
   trace(scene.value(), geometry, rays);
   return 0;
 }

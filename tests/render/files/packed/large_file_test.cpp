@@ -142,8 +142,8 @@ TEST_F(LargeFiles, RayFindsTheLastOfBillions) {
   auto scene = file.value().scene();
   ASSERT_TRUE(scene) << scene.error().message;
   EXPECT_EQ(count_primitives(scene.value()).spheres, 2'999'999'996U);
-  const std::vector<Plane> floor{{{0, -1, 0}, {0, 1, 0}, 0}};
-  const Geometry geometry = geometry_of(scene.value(), {}, floor, serial_for);
+  scene.value().planes = {{{0, -1, 0}, {0, 1, 0}, 0}};
+  const Geometry geometry = geometry_of(scene.value(), {}, serial_for);
   const std::vector<Ray> rays{
       {{0, 0, 5}, {0, 0, -1}}, {{10, 0, 5}, {0, 0, -1}}, {{20, 5, 0}, {0, -1, 0}}};
   for (const std::string& isa : all_isa_names()) {
