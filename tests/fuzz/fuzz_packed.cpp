@@ -104,7 +104,7 @@ void trace(const Scene& scene, const Geometry& geometry, const std::vector<Ray>&
       kernels.any_hit(geometry.view(), buffer.view(), query, occluded.data());
       for (std::size_t i = 0; i < rays.size(); ++i) {
         const Hit hit = hits.get(i);
-        if (hit.id == no_primitive || geometry.is_plane(hit)) continue;
+        if (hit.id == no_primitive || geometry.is_plane(hit) || geometry.is_capsule(hit)) continue;
         require(geometry.sphere(hit.slot).material.index() < scene.materials.size(),
                 "a sphere that is met is made of something");
       }
