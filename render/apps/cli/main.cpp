@@ -8,6 +8,7 @@
 #include "render/apps/cli/process/own_memory.h"
 #include "render/apps/cli/process/standard_streams.h"
 #include "render/apps/job/option_values.h"
+#include "render/files/particle_file/bridge/bridge_reader.h"
 #include "render/threads/threads.h"
 
 namespace {
@@ -33,9 +34,16 @@ void limit_threads_of_task() {
     boule::limit_threads(*number);
 }
 
+/// The Python that reads files for which Boule has no reader.
+void choose_python() {
+  const char* const program = std::getenv("BOULE_PYTHON");
+  if (program != nullptr && *program != '\0') boule::set_bridge_python(program);
+}
+
 ExitCode run_program(int argc, char** argv) {
   try {
     limit_threads_of_task();
+    choose_python();
     if (const auto done = take_stack(); !done) return report(done.error(), failed);
     return std::visit(Run{}, parse_command_line(argc, argv));
   } catch (const std::bad_alloc&) {

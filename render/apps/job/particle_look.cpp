@@ -178,6 +178,7 @@ void add_particles(std::string& text, const std::string& file, const LookOptions
   if (!options.columns.empty()) add_line(text, "columns", list(options.columns));
   if (options.frame) add_line(text, "frame", std::to_string(*options.frame));
   if (options.water) add_line(text, "water", "true");
+  if (!options.topology.empty()) add_line(text, "topology", toml_string(options.topology));
   if (!options.radius.empty()) {
     const bool is_number = parse_above_0(options.radius).has_value();
     add_line(text, "radius", is_number ? options.radius : toml_string(options.radius));

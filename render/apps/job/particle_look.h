@@ -45,6 +45,7 @@ struct LookOptions {
   std::vector<std::string> columns{};             ///< names for the columns; empty: the file's own
   std::optional<int> frame{};                     ///< of the file; negative: from its end
   bool water = false;                             ///< PDB and mmCIF: with water
+  std::string topology{};                         ///< a file with the kinds of particles
   std::string color{};                            ///< "element", "#rrggbb" or a column
   std::string map{};                              ///< a name, or colours "#rrggbb,#rrggbb"
   std::vector<KindText> colors{};                 ///< of kinds

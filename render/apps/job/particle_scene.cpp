@@ -42,6 +42,7 @@ const char* option_of(std::string_view key, const LookOptions& look) {
   };
   const Origin origins[] = {{".format", "--input-format", !look.format.empty()},
                             {".columns", "--columns", !look.columns.empty()},
+                            {".topology", "--topology", !look.topology.empty()},
                             {".frame", "--frame", look.frame.has_value()},
                             {".radius", "--radius", !look.radius.empty()},
                             {".radii", "--radii", !look.radii.empty()},
@@ -119,6 +120,7 @@ ParticleFileOptions file_options_of(const LookOptions& look) {
   options.format = look.format;
   options.columns = look.columns;
   options.water = look.water;
+  options.topology = look.topology;
   return options;
 }
 

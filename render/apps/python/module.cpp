@@ -17,6 +17,7 @@
 #include "render/apps/python/sphere_arrays.h"
 #include "render/apps/python/tables.h"
 #include "render/apps/python/tracing.h"
+#include "render/files/particle_file/bridge/bridge_reader.h"
 #include "render/files/particle_file/particle_file.h"
 #include "simd/dispatch/dispatch.h"
 
@@ -47,4 +48,5 @@ PYBIND11_MODULE(_core, module) {
   bind_rendering(module);
   bind_ends_of_calls(module);
   module.def("isa", &isa);
+  module.def("use_python", &boule::set_bridge_python);
 }

@@ -91,7 +91,7 @@ void read_particle_table(TomlTable& table) {
   int frame = 0;
   bool water = false;
   std::vector<std::string> columns;
-  for (const char* key : {"file", "format", "material"}) table.read(key, text);
+  for (const char* key : {"file", "format", "material", "topology"}) table.read(key, text);
   table.read("frame", frame);
   table.read("water", water);
   table.read("columns", columns);

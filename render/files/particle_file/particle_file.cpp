@@ -41,6 +41,14 @@ const ParticleFormat* format_of_ending(std::string_view name) {
   return nullptr;
 }
 
+/// The format that knows the whole name.
+const ParticleFormat* format_of_whole(std::string_view name) {
+  for (const ParticleFormat& format : all_particle_formats()) {
+    if (format.knows_name != nullptr && format.knows_name(name)) return &format;
+  }
+  return nullptr;
+}
+
 const ParticleFormat* format_of_name(std::string_view name) {
   for (const ParticleFormat& format : all_particle_formats()) {
     if (format.name == name) return &format;
@@ -79,6 +87,7 @@ Result<const ParticleFormat*> find_format(const std::string& path, std::string_v
   const std::string name = bare_name(path);
   const ParticleFormat* const named = format_of_ending(name);
   if (named != nullptr && ending_of(name) != "txt") return named;
+  if (const ParticleFormat* format = format_of_whole(name)) return format;
   if (const ParticleFormat* format = format_of_content(text)) return format;
   if (named != nullptr) return named;  // a text of no other format
   if (const ParticleFormat* format = format_of_prefix(name)) return format;
@@ -111,6 +120,37 @@ Result<MappedText> open_bytes(const std::string& path) {
 Diagnostic in_file(Diagnostic error, const std::string& path) {
   if (error.file.empty()) error.file = path;
   return error;
+}
+
+/// What the particles are, by the first frame of the topology; nothing without one.
+Result<ParticleFrame> open_topology(const ParticleFileOptions& options,
+                                    const ParallelFor& parallel_for) {
+  if (options.topology.empty()) return ParticleFrame{};
+  const ParticleFileOptions its{.water = true, .wanted = options.wanted, .places_matter = false};
+  auto file = ParticleFile::open(options.topology, its, parallel_for);
+  if (!file) return file.error();
+  return file.value().read(0, parallel_for);
+}
+
+/// Gives a frame the kinds of a topology, and the columns that it lacks but for velocities, which
+/// are those of another time.
+Status add_topology(const ParticleFrame& topology, ParticleFrame& frame) {
+  if (topology.size() != frame.size()) {
+    return Diagnostic::about("topology", "it has " + std::to_string(topology.size()) +
+                                             " particles, the file has " +
+                                             std::to_string(frame.size()));
+  }
+  for (const std::string& note : topology.notes) frame.notes.push_back("topology: " + note);
+  if (topology.species) frame.species = topology.species;
+  for (const TextColumn& column : topology.texts) {
+    if (find_text_column(frame, column.name) == nullptr) frame.texts.push_back(column);
+  }
+  for (const NumberColumn& column : topology.numbers) {
+    const bool is_velocity = column.name == "vx" || column.name == "vy" || column.name == "vz";
+    if (!is_velocity && find_number_column(frame, column.name) == nullptr)
+      frame.numbers.push_back(column);
+  }
+  return {};
 }
 
 /// A frame that is in memory already.
@@ -146,7 +186,7 @@ std::string known_particle_endings() {
 bool is_particle_name(std::string_view path) {
   const std::string name = bare_name(path);
   return format_of_ending(name) != nullptr || format_of_prefix(name) != nullptr ||
-         npz_name(std::string(path));
+         format_of_whole(name) != nullptr || npz_name(std::string(path));
 }
 
 bool has_particle_content(const std::string& path) {
@@ -171,12 +211,17 @@ Result<ParticleFile> ParticleFile::open(const std::string& path, const ParticleF
   if (!format) return in_file(format.error(), path);
   if (auto done = check_columns(options.columns, *format.value()); !done) return done.error();
   const Status whole = bytes.value().whole();
-  auto reader = format.value()->open(std::move(bytes).value(), options, parallel_for);
+  auto topology = open_topology(options, parallel_for);
+  if (!topology) return topology.error();
+  auto reader = format.value()->open_file != nullptr
+                    ? format.value()->open_file(path, options, topology.value().size())
+                    : format.value()->open(std::move(bytes).value(), options, parallel_for);
   if (!whole && !(reader && format.value()->is_trajectory))
     return cannot_read(path, whole.error().message);
   if (!reader) return in_file(reader.error(), path);
   ParticleFile opened(path, format.value()->name, std::move(reader).value());
   opened.packing_whole_ = whole;
+  if (!options.topology.empty()) opened.topology_ = std::move(topology).value();
   return opened;
 }
 
@@ -205,6 +250,15 @@ Result<ParticleFrame> ParticleFile::read(long frame, const ParallelFor& parallel
   auto read =
       reader_->read(static_cast<std::size_t>(frame < 0 ? frame + count : frame), parallel_for);
   if (!read) return in_file(read.error(), path_);
+  if (topology_) {
+    if (auto done = add_topology(*topology_, read.value()); !done) return done.error();
+  } else if (format_ == library_format.name && !read.value().species) {
+    read.value().notes.emplace_back(
+        "the file does not tell kinds of particles: --topology names a file that does");
+  }
+  if (format_ == library_format.name) {
+    read.value().axes_matter = read.value().cell.has_value() || !read.value().species;
+  }
   if (std::string cut = cut_text(); !cut.empty()) read.value().notes.push_back(std::move(cut));
   return read;
 }

@@ -53,6 +53,7 @@ class ParticleFile {
   std::string path_;
   std::string_view format_;
   std::unique_ptr<ParticleReader> reader_;
+  std::optional<ParticleFrame> topology_;
   Status packing_whole_;  ///< an error if the packed bytes end too early
 };
 

@@ -36,6 +36,7 @@ std::string fixed_options(const LookOptions& look) {
   if (look.quick) text += " --quick";
   if (look.floor) text += " --floor";
   if (look.water) text += " --water";
+  if (!look.topology.empty()) text += " --topology " + shell_word(look.topology);
   if (!look.format.empty()) text += " --input-format " + look.format;
   if (!look.columns.empty())
     text += " --columns " + shell_word(fmt::format("{}", fmt::join(look.columns, ",")));

@@ -425,6 +425,7 @@ class Particles:
     format: str | None
     columns: Sequence[str] | None
     water: bool | None
+    topology: str | None
     radius: float | str | None
     radii: Mapping[str, float] | None
     scale: float | None
@@ -450,6 +451,7 @@ class Particles:
         format: str | None = ...,
         columns: Sequence[str] | None = ...,
         water: bool | None = ...,
+        topology: str | None = ...,
         radius: float | str | None = ...,
         radii: Mapping[str, float] | None = ...,
         scale: float | None = ...,
@@ -564,6 +566,7 @@ class _Objects:
         format: str | None = ...,
         columns: Sequence[str] | None = ...,
         water: bool | None = ...,
+        topology: str | None = ...,
         radius: float | str | None = ...,
         radii: Mapping[str, float] | None = ...,
         scale: float | None = ...,
@@ -795,6 +798,7 @@ def load(
     input_format: str | None = ...,
     columns: str | Sequence[str] | None = ...,
     water: bool = ...,
+    topology: str | None = ...,
     color: str | None = ...,
     colors: str | Mapping[str, str] | None = ...,
     map: _Map | None = ...,
@@ -831,6 +835,7 @@ def frames(
     input_format: str | None = ...,
     columns: str | Sequence[str] | None = ...,
     water: bool = ...,
+    topology: str | None = ...,
     color: str | None = ...,
     colors: str | Mapping[str, str] | None = ...,
     map: _Map | None = ...,
@@ -961,6 +966,7 @@ def render(
     input_format: str | None = ...,
     columns: str | Sequence[str] | None = ...,
     water: bool = ...,
+    topology: str | None = ...,
     color: str | None = ...,
     colors: str | Mapping[str, str] | None = ...,
     map: _Map | None = ...,

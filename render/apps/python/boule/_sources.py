@@ -4,10 +4,15 @@ from __future__ import annotations
 
 import functools
 import inspect
+import sys
 
 from . import _core
 from ._objects import error, path_of
 from ._reading import scene_of
+
+# Files that Boule does not read itself are read in another process, with the packages of this one.
+if sys.executable:
+    _core.use_python(sys.executable)
 
 
 # How particles are shown, and the value of each argument that is not given. What "frame" means depends
@@ -65,12 +70,12 @@ def load(source, *, frame=None, polygons="plane", **look):
     frame: of a file of particles its frame, -1 is the last; of other scenes the frame of a series.
     polygons: NFF polygons become planes ("plane"), are left out ("skip"), or refused ("error").
     look: for files of particles, as the options of `boule render`: look ("paper", "plain", "dark"),
-        quick, floor, input_format, columns (names, "-" skips one), water, color, colors (a
-        dictionary of colours by kind), map, range, nan_color, radius, radii (a dictionary of radii
-        by species), scale, style ("space-filling", "balls-and-sticks", "sticks"), bonds (a rule,
-        or a distance), bond_radius, bond_color, cell_edges, arrows (three columns, or the one name that
-        they have before x, y, z), arrow_scale, select, wrap, replicate, view, up, roll, ortho,
-        fov, margin.
+        quick, floor, input_format, columns (names, "-" skips one), water, topology (a file that
+        tells the kinds of the particles), color, colors (a dictionary of colours by kind), map,
+        range, nan_color, radius, radii (a dictionary of radii by species), scale, style
+        ("space-filling", "balls-and-sticks", "sticks"), bonds (a rule, or a distance),
+        bond_radius, bond_color, cell_edges, arrows (three columns, or the one name that they have
+        before x, y, z), arrow_scale, select, wrap, replicate, view, up, roll, ortho, fov, margin.
 
     Raises boule.Error with file, line, column and key.
     """

@@ -14,16 +14,13 @@ struct OtherFormats {
   std::string_view advice;
 };
 
-constexpr std::string_view by_ase = "boule.from_ase of Python shows what ASE reads from it";
+constexpr std::string_view by_ase =
+    "--input-format library has ASE look at it, boule.from_ase of Python shows what ASE reads";
 constexpr std::array others{
-    OtherFormats{" vasp cube xsf mol sdf traj cfg gen cell res struct xsd car ", by_ase},
-    OtherFormats{" xtc trr tng dcd nc ncdf gsd h5md mdcrd psf mol2 crd prmtop parm7 rst7 inpcrd ",
-                 "MDAnalysis or OVITO makes a .pdb, .gro or .dump of it"},
-    OtherFormats{" txyz arc ",
-                 "Open Babel makes a .xyz of it: obabel -i txyz FILE -o xyz -O NEW.xyz"},
+    OtherFormats{" tng mmtf ", "MDAnalysis or OVITO makes a .pdb, .gro or .dump of it"},
     OtherFormats{" las laz e57 pcd pts ", "CloudCompare makes a .ply of it"},
-    OtherFormats{" vtk vtu vtp vti vts pvd pvtu pvtp ", "ParaView makes a .csv of it"},
-    OtherFormats{" h5 hdf5 fits parquet feather xlsx json vot ",
+    OtherFormats{" vti vts vtr pvd pvtu pvtp ", "ParaView makes a .csv of it"},
+    OtherFormats{" fits parquet feather xlsx json vot ",
                  "boule.from_particles of Python takes arrays that are read from it"},
 };
 
@@ -31,8 +28,7 @@ constexpr std::array others{
 
 std::string advice_for(std::string_view path) {
   const std::string name = ascii_lower(path.substr(path.rfind('/') + 1));  // npos + 1 is 0
-  const bool of_vasp = name.starts_with("poscar") || name.starts_with("contcar");
-  const std::string ending = of_vasp ? "vasp" : name.substr(name.rfind('.') + 1);
+  const std::string ending = name.substr(name.rfind('.') + 1);
   for (const OtherFormats& formats : others) {
     if (formats.endings.find(" " + ending + " ") == std::string_view::npos) continue;
     return "; " + std::string(formats.advice);

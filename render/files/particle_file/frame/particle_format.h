@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
@@ -31,6 +32,14 @@ struct ParticleFormat {
   bool is_trajectory = false;
   std::string_view prefix{};   ///< that users give to names of files: "dump." of "dump.melt"
   bool names_columns = false;  ///< a file names its columns itself
+  /// In place of endings: true for a file's name in lower case, without its folder and an ending of
+  /// compression.
+  bool (*knows_name)(std::string_view name) = nullptr;
+  /// In place of `open`, for those that read the file themselves: its path, and how many particles
+  /// it has if that is known from elsewhere, else 0.
+  Result<std::unique_ptr<ParticleReader>> (*open_file)(const std::string& path,
+                                                       const ParticleFileOptions& options,
+                                                       std::size_t particles) = nullptr;
 };
 
 /// .npy files of particles: rows of numbers (x, y, z, radius and more), or a structured array whose
@@ -61,6 +70,8 @@ extern const ParticleFormat mmcif_format;
 /// Tables as text: a row for each particle, columns between commas, semicolons, tabs or blanks,
 /// named by a header line, a comment before the rows, or ParticleFileOptions::columns.
 extern const ParticleFormat table_format;
+/// All files that libraries of Python read (bridge/boule_read.py).
+extern const ParticleFormat library_format;
 
 /// All formats, in the order in which a file's content is compared with them.
 std::span<const ParticleFormat> all_particle_formats();

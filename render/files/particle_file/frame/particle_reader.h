@@ -29,6 +29,9 @@ struct ParticleFileOptions {
   /// What is no finite number in a column besides the positions is an error, but for missing ones.
   /// With this it is kept: infinite, or missing where it is no number at all.
   bool lenient = false;
+  /// A file with the kinds and the texts of the particles, for files that lack them; empty: none.
+  std::string topology{};
+  bool places_matter = true;  ///< false: a file without positions is read, they are 0
 };
 
 /// One format's reader of one open file.

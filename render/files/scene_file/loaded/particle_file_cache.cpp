@@ -13,7 +13,7 @@ namespace {
 bool are_same(const ParticleFileOptions& a, const ParticleFileOptions& b) {
   return a.format == b.format && a.columns == b.columns && a.water == b.water &&
          a.wanted == b.wanted && a.positive == b.positive && a.lenient == b.lenient &&
-         a.most_bonded == b.most_bonded;
+         a.most_bonded == b.most_bonded && a.topology == b.topology;
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ ParticleKeys read_particle_keys(TomlTable& table, std::uint32_t material) {
   check_format(table, keys.file.format);
   table.read("columns", keys.file.columns);
   table.read("water", keys.file.water);
+  if (table.has("topology")) table.read_file_name("topology", keys.file.topology);
   keys.style = read_particle_style(table);
   keys.style.material = material;
   table.finish({"file"});
@@ -174,7 +175,7 @@ std::optional<std::size_t> ParticleTable::choose_frame(const ParticleFile& file)
 /// Reports an error of the file: at its own line, else where the scene file names it.
 void ParticleTable::report_file(const Diagnostic& error) {
   if (error.line > 0) return table_.report(error);
-  for (const char* key : {"columns", "format"}) {
+  for (const char* key : {"columns", "format", "topology"}) {
     if (error.key == key && table_.has(key)) return table_.report(key, error.message);
   }
   const std::string column = error.key.empty() ? "" : "column " + quote(error.key) + " ";
@@ -198,6 +199,7 @@ std::optional<TomlParticles> read_particles(TomlTable& table, std::uint32_t mate
   ParticleKeys keys = read_particle_keys(table, material);
   if (!table.ok()) return std::nullopt;
   keys.path = table.file_path(keys.name);
+  if (!keys.file.topology.empty()) keys.file.topology = table.file_path(keys.file.topology);
   return ParticleTable(table, std::move(keys), options).read();
 }
 

@@ -107,8 +107,8 @@ TEST(ParticleFile, PackedFilesAreUnpackedOrToldDamaged) {
 TEST(ParticleFile, ErrorsSayWhatHelpsWithOtherFormats) {
   const auto error = [](const char* name) { return particle_error(name, "\x01\x02"); };
   EXPECT_THAT(error("conf"), HasSubstr("boule.from_ase of Python shows what ASE reads"));
-  EXPECT_THAT(error("POSCAR"), HasSubstr("boule.from_ase"));
-  EXPECT_THAT(error("run.xtc"), HasSubstr("MDAnalysis or OVITO makes a .pdb, .gro or .dump of it"));
+  EXPECT_THAT(error("conf"), HasSubstr("--input-format library has ASE look at it"));
+  EXPECT_THAT(error("run.tng"), HasSubstr("MDAnalysis or OVITO makes a .pdb, .gro or .dump of it"));
   EXPECT_THAT(error("scan.LAS"), HasSubstr("CloudCompare makes a .ply of it"));
   EXPECT_THAT(error("sky.fits"), HasSubstr("boule.from_particles"));
 }

@@ -1,12 +1,14 @@
 // Prints a particle file for scripts that compare it with what other readers find.
 //
-//   boule_print_particles FILE [FORMAT [COLUMN,...]]
+//   boule_print_particles FILE [FORMAT [COLUMN,... [TOPOLOGY]]]
 //
 // One JSON object for each frame, a line each. Numbers are hexadecimal and thereby exact.
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <utility>
 
+#include "render/files/particle_file/bridge/bridge_reader.h"
 #include "render/files/particle_file/particle_file.h"
 
 namespace boule::test {
@@ -72,7 +74,9 @@ std::vector<std::string> split(const std::string& text) {
 int run(int argc, char** argv) {
   ParticleFileOptions options;
   if (argc > 2) options.format = argv[2];
-  if (argc > 3) options.columns = split(argv[3]);
+  if (argc > 3 && *argv[3] != '\0') options.columns = split(argv[3]);
+  if (argc > 4) options.topology = argv[4];
+  if (const char* const python = std::getenv("BOULE_PYTHON")) set_bridge_python(python);
   auto file = ParticleFile::open(argv[1], options);
   if (!file) {
     std::printf("%s\n", format_diagnostic(file.error()).c_str());
