@@ -21,6 +21,7 @@ ParticleFileOptions options_of(std::uint8_t byte) {
   ParticleFileOptions options;
   const std::size_t format = byte % 16U % (formats.size() + 1);
   if (format > 0) options.format = formats[format - 1];
+  if (options.format == "library") options.format.clear();  // it would start Python each time
   if ((byte & 16) != 0) options.wanted = std::vector<std::string>{"radius", "name", "vx"};
   if ((byte & 32) != 0) options.columns = {"id", "type", "x", "y", "z"};
   options.water = (byte & 64) != 0;

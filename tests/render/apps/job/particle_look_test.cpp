@@ -26,6 +26,7 @@ TEST(ParticleLook, HasExactlyTheOptions) {
   look.columns = {"x", "-", "z"};
   look.frame = -3;
   look.water = true;
+  look.topology = "run.psf";
   look.radius = "0.50";
   look.radii = {{"Na", "1.02"}};
   look.scale = 0.1;
@@ -42,6 +43,7 @@ TEST(ParticleLook, HasExactlyTheOptions) {
                                         "columns = [\"x\", \"-\", \"z\"]\n"
                                         "frame = -3\n"
                                         "water = true\n"
+                                        "topology = \"run.psf\"\n"
                                         "radius = 0.50\n"
                                         "radii = { \"Na\" = 1.02 }\n"
                                         "scale = 0.1\n"
