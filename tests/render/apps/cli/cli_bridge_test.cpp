@@ -15,6 +15,9 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
+/// The first answer of a reader.
+constexpr const char* head = "printf 'boule-read 1\\nlibrary fake 2\\nframes 3\\n\\n'\n";
+
 class Bridges : public ParticlesTest {
  protected:
   /// An environment whose Python is this script. It adds its number to the file "started".
@@ -26,14 +29,16 @@ class Bridges : public ParticlesTest {
   /// One whose files have three frames of a particle.
   std::vector<std::string> honest() const {
     return with_reader(
-        "printf 'boule-read 1\\nlibrary fake 2\\nframes 3\\n\\n'\n"
+        std::string(head) +
         "while read line; do printf 'particles 1\\npositions\\n\\n'; head -c 24 /dev/zero; done\n");
   }
   std::string file() const { return write("run.xtc", "bytes"); }
 
   /// Waits until no process of those that were started runs. (Somebody else may have to bury it.)
   void wait_for_end() const {
-    const int process = std::stoi(read("started"));
+    const std::string started = read("started");
+    if (started.empty()) return;  // it was ended before it said its number
+    const int process = std::stoi(started);
     const auto is_over = [&] {
       if (kill(process, 0) != 0 && errno == ESRCH) return true;
       const std::string state = read_bytes("/proc/" + std::to_string(process) + "/stat");
@@ -80,7 +85,8 @@ TEST_F(Bridges, ErrorsAreOneLine) {
 TEST_F(Bridges, ReadersEndWithTheProgram) {
   for (const char* signal : {"TERM", "INT", "KILL"}) {
     std::filesystem::remove(path("started"));
-    const auto environment = with_reader(std::string("kill -") + signal + " $PPID\nsleep 100000\n");
+    const auto environment =
+        with_reader(std::string(head) + "read line\nkill -" + signal + " $PPID\nsleep 100000\n");
     EXPECT_NE(boule_run({"info", file()}, environment).exit_code, 0) << signal;
     wait_for_end();
   }

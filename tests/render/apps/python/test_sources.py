@@ -239,6 +239,18 @@ def test_frames_choose_once(tmp_path):
     assert notes[0].endswith("nearest neighbour, 0.5, the smallest of all 4 frames")
 
 
+def test_files_of_other_programs_are_read(tmp_path):
+    ase_io = pytest.importorskip("ase.io")
+    from ase import Atoms
+
+    atoms = Atoms("COFe", positions=[(0, 0, 0), (1, 0.5, 0), (0, 2, 1)], cell=[5, 6, 7], pbc=True)
+    for name in ("POSCAR", "a.traj", "a.extxyz"):
+        ase_io.write(tmp_path / name, atoms)
+    own = pixels(tmp_path / "a.extxyz")
+    assert np.array_equal(pixels(tmp_path / "a.traj"), own)
+    assert np.array_equal(pixels(tmp_path / "POSCAR", topology=str(tmp_path / "a.extxyz")), own)
+
+
 def test_single_frame_serves_every_number(water, tmp_path):
     scenes = list(boule.frames(water, range(3, 5)))
     assert len(scenes) == 2
