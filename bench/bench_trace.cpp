@@ -37,7 +37,9 @@ struct Trace {
       : scene(std::move(what)),
         geometry(scene.spheres, {}, structure),
         rays(primary_rays(scene, side)),
-        hits(rays.size()) {}
+        hits(rays.size()) {
+    if (!scene.capsules.empty()) geometry.add_capsules(scene.capsules);
+  }
 };
 
 /// The experiment's data, made at the first call and kept.
@@ -123,6 +125,8 @@ void add_all(const IsaInfo& info) {
   for (const Experiment& experiment : on_tree) {
     for (const char* n : {"16", "64", "256", "1000", "100000"}) add_trace(experiment, info, "u", n);
     add_trace(experiment, info, "flake", "4");
+    if (experiment.form == Form::single) continue;
+    for (const char* kind : {"u", "cell"}) add_trace(experiment, info, kind, "1000000");
   }
   const KernelTable* const kernels = select_kernels(info.name).value();
   add("camera/" + std::string(info.name), [=](auto& state) { run_camera(state, *kernels); });
