@@ -31,6 +31,18 @@ TEST_F(TomlKindsTest, HaveTheirColorsAndRadii) {
   EXPECT_EQ(spheres[1].radius, 1.02F);  // Cordero's
 }
 
+TEST_F(TomlKindsTest, BondsAreCapsules) {
+  const auto loaded = load("bonds = 1e3\nbond_radius = 0.125\nbond_color = \"red\"\n");
+  ASSERT_TRUE(loaded.ok()) << format_diagnostic(loaded.error());
+  const Scene& scene = loaded.value().scene;
+  ASSERT_FALSE(scene.capsules.empty());
+  EXPECT_EQ(scene.capsules[0].a, scene.spheres[0].center);
+  EXPECT_EQ(scene.capsules[0].b, scene.spheres[1].center);
+  EXPECT_EQ(scene.capsules[0].radius, 0.125F);
+  EXPECT_EQ(hex_text(scene.capsules[0].material.color()), "#ff0000");
+  EXPECT_EQ(loaded.value().particles[0].bonds, scene.capsules.size());
+}
+
 TEST_F(TomlKindsTest, RefuseWhatIsWrong) {
   struct Wrong {
     const char *keys, *key, *words;
@@ -40,6 +52,16 @@ TEST_F(TomlKindsTest, RefuseWhatIsWrong) {
         Wrong{"colors = { Xx = \"red\" }\n", "colors", "no particle is of the kind 'Xx'"},
         Wrong{"colors = \"red\"\n", "colors", "expected a table"},
         Wrong{"nan_color = \"rde\"\n", "nan_color", "did you mean 'red'?"},
+        Wrong{"style = \"stick\"\n", "style", "did you mean 'sticks'?"},
+        Wrong{"bonds = \"distanse\"\n", "bonds", "did you mean 'distance'?"},
+        Wrong{"bonds = 0\n", "bonds", "above 0, is 0"},
+        Wrong{"bonds = \"file\"\n", "bonds", "the file lists no bonds"},
+        Wrong{"bond_radius = -1\n", "bond_radius", "above 0, is -1"},
+        Wrong{"bond_color = \"rde\"\n", "bond_color", "did you mean 'red'?"},
+        Wrong{"cell_edges = true\n", "cell_edges", "the file tells no cell"},
+        Wrong{"arrows = [\"fx\", \"fy\"]\n", "arrows", "expected three columns"},
+        Wrong{"arrows = \"f\"\n", "arrows", "there is no column 'fx'"},
+        Wrong{"arrow_scale = 2\n", "arrow_scale", "needs the vectors of arrows"},
         Wrong{"radii = { Na = 0 }\n", "radii.Na", "above 0, is 0"},
         Wrong{"radii = { Na = \"big\" }\n", "radii.Na", "expected a number"}}) {
     const auto loaded = load(wrong.keys);
