@@ -14,8 +14,8 @@ namespace boule::reference {
 
 /// The part of a ray's line that is in a primitive: from `enter` to `leave`, which are equal for a
 /// tangent, and NaN for a line that misses. The interval of the ray is ignored. A plane bounds the
-/// half-space behind it, so one of the two is infinite. A ray that leaves a sphere or capsule on its
-/// inside has entered it before: at -inf.
+/// half-space behind it, so one of the two is infinite. A ray that leaves a sphere or capsule on
+/// its inside has entered it before: at -inf.
 struct Chord {
   double enter, leave;
 };
