@@ -18,6 +18,8 @@ constexpr std::string_view by_ase =
     "--input-format library has ASE look at it, boule.from_ase of Python shows what ASE reads";
 constexpr std::array others{
     OtherFormats{" tng mmtf ", "MDAnalysis or OVITO makes a .pdb, .gro or .dump of it"},
+    OtherFormats{" txyz arc ",
+                 "Open Babel makes a .xyz of it: obabel -i txyz FILE -o xyz -O NEW.xyz"},
     OtherFormats{" las laz e57 pcd pts ", "CloudCompare makes a .ply of it"},
     OtherFormats{" vti vts vtr pvd pvtu pvtp ", "ParaView makes a .csv of it"},
     OtherFormats{" fits parquet feather xlsx json vot ",
