@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <limits>
+#include <memory>
+#include <set>
 #include <utility>
 
 #include "core/base/version.h"
@@ -302,10 +304,27 @@ void add_commands(CLI::App& app, Commands& commands) {
 
 std::string version_line() { return std::string("boule ") + library_version(); }
 
+/// Names the options that one excludes in the order of their names: CLI11 keeps them in the order
+/// of their addresses, which differs from run to run.
+class OrderedFormatter : public CLI::Formatter {
+  std::string make_option_opts(const CLI::Option* option) const override {
+    std::string text = CLI::Formatter::make_option_opts(option);
+    const std::string label = " " + get_label("Excludes") + ":";
+    const std::size_t at = text.find(label);
+    if (at == std::string::npos) return text;
+    std::set<std::string> names;
+    for (const CLI::Option* const other : option->get_excludes()) names.insert(other->get_name());
+    text.erase(at + label.size());
+    for (const std::string& name : names) text += " " + name;
+    return text;
+  }
+};
+
 /// Tells the app all that can be typed; `commands` takes it.
 void describe(CLI::App& app, Commands& commands) {
   app.set_version_flag("--version", version_line(), "Tell the version");
   app.require_subcommand(1);
+  app.formatter(std::make_shared<OrderedFormatter>());
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   add_commands(app, commands);
 }
