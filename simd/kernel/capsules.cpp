@@ -199,10 +199,8 @@ BOULE_INLINE void for_each_packet(const RayStream& rays, Form form, const Wanted
   }
 }
 
-}  // namespace
-
-void closest_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
-                      const HitStream& hits) {
+void trace_all(const CapsuleView& capsules, const RayStream& rays, Form form,
+               const HitStream& hits) {
   CapsuleQueue<HitStream> queue(rays, capsules, hits);
   for_each_packet(
       rays, form, [](std::size_t, std::size_t live) { return first_lanes(live); },
@@ -219,8 +217,8 @@ void closest_capsules(const CapsuleView& capsules, const RayStream& rays, Form f
   queue.finish();
 }
 
-void any_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
-                  std::uint8_t* occluded) {
+void trace_all(const CapsuleView& capsules, const RayStream& rays, Form form,
+               std::uint8_t* occluded) {
   const auto open = [&](std::size_t first, std::size_t live) {
     unsigned lanes = 0;
     for (std::size_t lane = 0; lane < live; ++lane)
@@ -243,5 +241,16 @@ void any_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
       });
   queue.finish();
 }
+
+}  // namespace
+
+template <class Answers>
+void trace_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
+                    const Answers& answers) {
+  trace_all(capsules, rays, form, answers);
+}
+
+template void trace_capsules(const CapsuleView&, const RayStream&, Form, const HitStream&);
+template void trace_capsules(const CapsuleView&, const RayStream&, Form, std::uint8_t* const&);
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -97,7 +97,7 @@ for command in $commands; do
     names="${BASH_REMATCH[2]%% or colours*}"
     names="${names%%, each once*}"
     names="${names%%$'\n'*}"
-    names="${names//[^a-z0-9_]/ }"
+    names="${names//[^a-z0-9_-]/ }"
     lines+=("boule $command x $option ")
     wanted+=("${names/ or / }")
   done

@@ -20,9 +20,10 @@ using Words = std::vector<std::string>;
 constexpr std::string_view film_ending = ".film";
 
 bool is_word(std::string_view text) {
-  return !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char letter) {
-    return std::islower(letter) != 0 || std::isdigit(letter) != 0 || letter == '_';
-  });
+  const auto is_inner = [](unsigned char letter) {
+    return std::islower(letter) != 0 || std::isdigit(letter) != 0 || letter == '_' || letter == '-';
+  };
+  return !text.empty() && text[0] != '-' && std::all_of(text.begin(), text.end(), is_inner);
 }
 
 /// The parts of `text` between any of the separators, none of them empty.

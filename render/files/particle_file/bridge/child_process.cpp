@@ -117,7 +117,7 @@ ChildProcess::~ChildProcess() {
 int ChildProcess::end() {
   if (process_ == 0) return 0;
   const pid_t process = std::exchange(process_, 0);
-  kill(-process, SIGKILL);
+  killpg(process, SIGKILL);  // a group without this process
   int status = 0;
   while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }

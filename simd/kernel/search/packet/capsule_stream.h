@@ -8,10 +8,10 @@
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Streams of rays against capsules, once all other primitives have been searched: rays with a
-/// nearer hit, or with any, are done. Every solver decides as robust does. (capsules.cpp)
-void closest_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
-                      const HitStream& hits);
-void any_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
-                  std::uint8_t* occluded);
+/// nearer hit, or with any, are done. Every solver decides as robust does. Answers: HitStream, or
+/// std::uint8_t*. (capsules.cpp)
+template <class Answers>
+void trace_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
+                    const Answers& answers);
 
 }  // namespace boule::BOULE_KERNEL_ISA
