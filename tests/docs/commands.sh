@@ -36,6 +36,7 @@ cp "$source"/scenes/*.{toml,npy,exr,lens,xyz,csv} "$work/here"
 cd "$work/here"
 ln -s . scenes
 npy '2, 3' 24 >cloud.npy
+npy '2, 6' 48 >bonds.npy
 npy '3, 8' 96 | tee rays.npy >bounded.npy
 for block in "$work"/blocks/*.{toml,nff}; do
   [[ -f "$block" ]] || continue
