@@ -30,6 +30,16 @@ bool has_part(const Chord& chord, const Ray& ray) {
   return ray.tmin < ray.tmax && ray.tmin < end && chord.leave > ray.tmin && chord.enter <= end;
 }
 
+/// The roots of a ball from its discriminant, r^2 - l.l, as find_chord() of a sphere derives them.
+Chord roots_of(const Vec3d& d, const Vec3d& f, double r, double b, double discriminant) {
+  const double half_chord = std::sqrt(dot(d, d) * discriminant);
+  const double q = std::signbit(b) ? b - half_chord : b + half_chord;
+  const double from_a = q * (1 / dot(d, d));
+  // A tangent has one root twice. (From a point on the sphere cc / q is then noise over noise.)
+  const double from_cc = discriminant > 0 ? (dot(f, f) - r * r) / q : from_a;
+  return from_cc < from_a ? Chord{from_cc, from_a} : Chord{from_a, from_cc};
+}
+
 }  // namespace
 
 bool overlaps(const Chord& chord, const Ray& ray, const Sphere& /*sphere*/) {
@@ -71,12 +81,7 @@ Chord find_chord(const Ray& ray, const Sphere& sphere, bool leaves) {
   const Vec3d l = f - d * (b * inverse_a);
   const double discriminant = r * r - dot(l, l);
   if (!(discriminant >= 0)) return no_chord;  // NaN is a miss; exactly 0, a tangent, is a hit
-  const double half_chord = std::sqrt(dot(d, d) * discriminant);
-  const double q = std::signbit(b) ? b - half_chord : b + half_chord;
-  const double from_a = q * inverse_a;
-  // A tangent has one root twice. (From a point on the sphere cc / q is then noise over noise.)
-  const double from_cc = discriminant > 0 ? (dot(f, f) - r * r) / q : from_a;
-  return from_cc < from_a ? Chord{from_cc, from_a} : Chord{from_a, from_cc};
+  return roots_of(d, f, r, b, discriminant);
 }
 
 double intersect(const Ray& ray, const Sphere& sphere, bool leaves) {
@@ -132,11 +137,7 @@ struct Balls {
     const double b = dot(g, d);
     const Vec3d l = g - d * (b * inverse_a);
     const double found = r * r - dot(l, l), discriminant = found < 0 ? 0 : found;
-    const double half_chord = std::sqrt(dot(d, d) * discriminant);
-    const double q = std::signbit(b) ? b - half_chord : b + half_chord;
-    const double from_a = q * inverse_a;
-    const double from_cc = discriminant > 0 ? (dot(g, g) - r * r) / q : from_a;
-    return from_cc < from_a ? Chord{from_cc, from_a} : Chord{from_a, from_cc};
+    return roots_of(d, g, r, b, discriminant);
   }
 };
 

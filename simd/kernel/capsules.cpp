@@ -88,7 +88,7 @@ class NearestCapsules {
     const RealMask counts = bounds.certain & (rays.filter.live_from < bounds.low) &
                             ~(rays.exact.source == capsule.id) & (bounds.high < reach_);
     unsigned in = ~(bits(reach_ < bounds.low) | out) & all_lanes;
-    // Lanes that are out have no reach to lose: `certain` is false there, but for empty slots.
+    // A lane whose ray is out because of its limit is left as it is: `high` lies beyond that.
     reach_ = select(counts, bounds.high, reach_);
     if (one_ray) reach_ = Real(least_lane(reach_));
     alignas(64) float low[width];

@@ -7,6 +7,7 @@
 
 #include "core/math/geometry.h"
 #include "core/reference.h"
+#include "tests/oracle/hard_figures.h"
 #include "tests/oracle/oracle.h"
 #include "tests/support/hard_capsules.h"
 #include "tests/support/test_size.h"
@@ -15,13 +16,6 @@
 
 namespace boule::test {
 namespace {
-
-/// The distance to the next float above |x|.
-double float_ulp(double x) {
-  int exponent = 0;
-  std::frexp(x, &exponent);
-  return std::ldexp(1.0, std::max(exponent - 24, -149));
-}
 
 struct CapsuleFigures {
   std::size_t hits = 0, wrong_decisions = 0, wrong_roots = 0;
@@ -43,7 +37,7 @@ struct CapsuleFigures {
     if (std::fabs(exact_t) * speed * cosine(ray, capsule, exact_t) > 0x1p-20 * scale) {
       const auto float_t = double{static_cast<float>(t)};
       const double off = abs(BigFloat(float_t) - truth->t).to_double();
-      max_clear_ulp = std::fmax(max_clear_ulp, off / float_ulp(exact_t));
+      max_clear_ulp = std::fmax(max_clear_ulp, off / ulp_of(exact_t));
     }
     const double residual = oracle_residual(ray, capsule, t).to_double();
     max_residual64 = std::fmax(max_residual64, std::fabs(residual) / (0x1p-48 * scale));

@@ -7,14 +7,14 @@
 #include "core/math/geometry.h"
 
 namespace boule::test {
-namespace {
 
-/// Distance from |x| to the next float above, its size being a normal or denormal float's.
 double ulp_of(double x) {
   int exponent = 0;
   std::frexp(x, &exponent);
   return std::ldexp(1.0, std::max(exponent - 24, -149));
 }
+
+namespace {
 
 /// max(F, r); F without overflow.
 double scale_of(const Ray& ray, const Sphere& sphere) {

@@ -8,6 +8,9 @@
 
 namespace boule::test {
 
+/// The distance from |x| to the next float above, its size being a normal or denormal float's.
+double ulp_of(double x);
+
 /// The errors of a contender on the pairs of a case, in three columns: decisions and roots, ulp of
 /// t, distance from the surface. The scale is max(F, r), F = |o - c| or |o - p0|.
 class HardFigures {

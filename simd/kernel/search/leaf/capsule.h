@@ -118,12 +118,7 @@ struct Balls {
     const Wide b = dot(g, rays.dir);
     const Vec3<Wide> l = g - rays.dir * (b * rays.inverse_a);
     const Wide found = rr - dot(l, l), discriminant = select(found < zero, zero, found);
-    const Wide q = b + copysign(sqrt(rays.a * discriminant), b);
-    const Wide from_a = q * rays.inverse_a;
-    const Wide from_cc = select(zero < discriminant, (dot(g, g) - rr) / q, from_a);
-    const WideMask ordered = from_cc < from_a;
-    enter = select(ordered, from_cc, from_a);
-    leave = select(ordered, from_a, from_cc);
+    find_roots(rays, g, rr, b, discriminant, enter, leave);
   }
 };
 

@@ -47,23 +47,36 @@ struct LineRoots {
   Wide r, b;  ///< the radius, and (c - o).d
 };
 
+/// The roots of balls from their discriminants, r^2 - l.l: `f` leads from the origins to the
+/// centres, b = f.d.
+BOULE_INLINE void find_roots(const ExactRays& rays, const Vec3<Wide>& f, const Wide& rr,
+                             const Wide& b, const Wide& discriminant, Wide& enter, Wide& leave) {
+  const Wide q = b + copysign(sqrt(rays.a * discriminant), b);
+  const Wide from_a = q * rays.inverse_a;
+  // A tangent line has the same root twice, and cc / q might be the quotient of two rounding
+  // errors.
+  const WideMask secant = Wide(0.0) < discriminant;
+  const Wide from_cc = select(secant, (dot(f, f) - rr) / q, from_a);
+
+  const WideMask ordered = from_cc < from_a;
+  enter = select(ordered, from_cc, from_a);
+  leave = select(ordered, from_a, from_cc);
+}
+
 /// Closest approach in double, never fused. core/reference.cpp derives the formula.
 BOULE_INLINE LineRoots meet_lines(const ExactRays& rays, const SphereLanes& sphere) {
   const Vec3<Wide> f = widen(sphere.center) - rays.org;
   const Wide r = widen(sphere.radius);
   const Wide b = dot(f, rays.dir);
   const Vec3<Wide> l = f - rays.dir * (b * rays.inverse_a);
-  const Wide discriminant = r * r - dot(l, l);
+  const Wide rr = r * r;
 
-  const Wide q = b + copysign(sqrt(rays.a * discriminant), b);
-  const Wide from_a = q * rays.inverse_a;
-  // A tangent line has the same root twice, and cc / q might be the quotient of two rounding
-  // errors.
-  const WideMask secant = Wide(0.0) < discriminant;
-  const Wide from_cc = select(secant, (dot(f, f) - r * r) / q, from_a);
-
-  const WideMask ordered = from_cc < from_a;
-  return {select(ordered, from_cc, from_a), select(ordered, from_a, from_cc), discriminant, r, b};
+  LineRoots line;
+  line.discriminant = rr - dot(l, l);
+  line.r = r;
+  line.b = b;
+  find_roots(rays, f, rr, b, line.discriminant, line.enter, line.leave);
+  return line;
 }
 
 /// Solver robust.
