@@ -7,7 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "render/files/particle_file/frame/particle_frame.h"
-#include "render/files/particles/bond_finder.h"
+#include "render/files/particles/bonds/bond_finder.h"
 #include "render/files/particles/particle_choices.h"
 #include "render/files/particles/particle_radii.h"
 #include "render/files/particles/particle_style.h"

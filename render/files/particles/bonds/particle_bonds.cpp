@@ -1,4 +1,4 @@
-#include "render/files/particles/particle_bonds.h"
+#include "render/files/particles/bonds/particle_bonds.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "render/files/particles/bond_capsules.h"
+#include "render/files/particles/bonds/bond_capsules.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "render/files/particles/bond_finder.h"
+#include "render/files/particles/bonds/bond_finder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,7 +6,7 @@
 
 #include "core/scene/primitive.h"
 #include "render/files/particle_file/frame/particle_frame.h"
-#include "render/files/particles/bond_finder.h"
+#include "render/files/particles/bonds/bond_finder.h"
 #include "render/files/particles/cell_images.h"
 #include "render/files/particles/particle_values.h"
 
