@@ -129,4 +129,8 @@ inline constexpr float bundle_far = 1e15F;
 /// of the absolute coordinates of A - o and B - A. 21 are needed, and for a bound of roots 28.
 inline constexpr double capsule = 32;
 
+/// A plane between a capsule and a group of rays leaves this fraction of all lengths between them,
+/// for the roundings of double. 2^-46 would be enough.
+inline constexpr double aside = 0x1p-40;
+
 }  // namespace boule::filter

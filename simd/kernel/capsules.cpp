@@ -1,6 +1,7 @@
 // Packets and single rays against capsules, after all other primitives.
 #include "simd/kernel/search/packet/capsule_search.h"
 #include "simd/kernel/search/packet/capsule_stream.h"
+#include "simd/kernel/search/packet/capsules_near.h"
 #include "simd/kernel/search/packet/packet_hits.h"
 
 namespace boule::BOULE_KERNEL_ISA {
@@ -175,14 +176,23 @@ class AnyCapsule : public AnyHit<one_ray> {
   CapsuleQueue<std::uint8_t*>& queue_;
 };
 
-/// Calls packet(rays, first, live) for packets with a lane in wanted(first, live), which gives the
-/// lanes that need a search as bits, and single(rays, index) for rays that go alone.
+/// Calls packet(rays, first, live, near) for packets with a lane in wanted(first, live), which
+/// gives the lanes that need a search as bits, and single(rays, index) for rays that go alone.
+/// `near`: as CapsulesNear finds them. Groups of rays without any are passed over.
 template <class Wanted, class Packet, class Single>
-BOULE_INLINE void for_each_packet(const RayStream& rays, Form form, const Wanted& wanted,
-                                  const Packet& packet, const Single& single) {
+BOULE_INLINE void for_each_packet(const CapsulesNear& capsules, const RayStream& rays, Form form,
+                                  const Wanted& wanted, const Packet& packet,
+                                  const Single& single) {
   const PaddedStream stream(rays);
   RayLanes lanes;
+  unsigned near = CapsulesNear::all;
   for (std::size_t first = 0; first < rays.size; first += width) {
+    if (first % tuning::capsule_group == 0) {
+      const std::size_t left = rays.size - first;
+      const std::size_t count = left < tuning::capsule_group ? left : tuning::capsule_group;
+      near = capsules.find(stream, first, first + count);
+    }
+    if (near == 0) continue;
     const std::size_t live = stream.live(first);
     unsigned left = wanted(first, live);
     if (left == 0) continue;
@@ -194,19 +204,33 @@ BOULE_INLINE void for_each_packet(const RayStream& rays, Form form, const Wanted
       }
     } else {
       load_ahead(stream, first, lanes);
-      packet(lanes, first, live);
+      packet(lanes, first, live, near);
     }
   }
+}
+
+/// Searches the capsules for a packet.
+template <class Best>
+BOULE_INLINE void search_near(const RayLanes& rays, const CapsuleView& capsules,
+                              const CapsulesNear& known, unsigned near, Best& best) {
+  if (!known.few() || count_bits(near) > tuning::most_capsules_alone) {
+    search_capsules<OneForAll>(rays, capsules, best);
+    return;
+  }
+  const BlockCapsules<OneForAll> block{capsules.blocks[0], capsules.id, 0};
+  for (; near != 0 && !best.done(); near &= near - 1)
+    meet_step(rays, block, static_cast<std::size_t>(__builtin_ctz(near)), 0, best);
 }
 
 void trace_all(const CapsuleView& capsules, const RayStream& rays, Form form,
                const HitStream& hits) {
   CapsuleQueue<HitStream> queue(rays, capsules, hits);
+  const CapsulesNear known(capsules);
   for_each_packet(
-      rays, form, [](std::size_t, std::size_t live) { return first_lanes(live); },
-      [&](const RayLanes& packet, std::size_t first, std::size_t live) {
+      known, rays, form, [](std::size_t, std::size_t live) { return first_lanes(live); },
+      [&](const RayLanes& packet, std::size_t first, std::size_t live, unsigned near) {
         NearestCapsules<false> nearest(packet, first, load(hits.t + first), queue);
-        search_capsules<OneForAll>(packet, capsules, nearest);
+        search_near(packet, capsules, known, near, nearest);
         nearest.finish(first_lanes(live));
       },
       [&](const RayLanes& ray, std::size_t index) {
@@ -226,11 +250,12 @@ void trace_all(const CapsuleView& capsules, const RayStream& rays, Form form,
     return lanes;
   };
   CapsuleQueue<std::uint8_t*> queue(rays, capsules, occluded);
+  const CapsulesNear known(capsules);
   for_each_packet(
-      rays, form, open,
-      [&](const RayLanes& packet, std::size_t first, std::size_t live) {
+      known, rays, form, open,
+      [&](const RayLanes& packet, std::size_t first, std::size_t live, unsigned near) {
         AnyCapsule<false> any(packet, first, ~open(first, live) & all_lanes, queue);
-        search_capsules<OneForAll>(packet, capsules, any);
+        search_near(packet, capsules, known, near, any);
         for (std::size_t lane = 0; lane < live; ++lane)
           occluded[first + lane] |= static_cast<std::uint8_t>(any.hit >> lane & 1U);
       },

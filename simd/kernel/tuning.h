@@ -76,6 +76,15 @@ inline constexpr float most_shared_growth = 1.5F;
 /// u1000,u10000,u100000 --rays diffuse
 inline constexpr std::size_t most_near_blocks = 640;
 
+// ---- Capsules: capsules.cpp, search/packet/capsules_near.h ------------------------------------
+
+/// The number of rays that are held against a few capsules together: 8 x 8 pixels of a stream in
+/// Morton order. Again: bench_trace --benchmark_filter=bundle/.*/1000000
+inline constexpr std::size_t capsule_group = 64;
+
+/// Up to this many capsules are tested by a packet without their boxes. Again: as capsule_group
+inline constexpr int most_capsules_alone = 4;
+
 // ---- Bundles: search/bundle_*.h ---------------------------------------------------------------
 
 /// The largest number of rays in a bundle: 32 x 32 pixels of a stream in Morton order. The first
