@@ -31,11 +31,8 @@ class StreamSurfaces {
 
   /// The surfaces of the last block, by its rays.
   SurfaceStream of_block();
-  /// Ids below it are those of primitives with an inside, and where there are capsules all ids are:
-  /// whether a ray leaves a plane on its inside tells the solver nothing.
-  [[nodiscard]] std::int32_t first_plane() const {
-    return geometry_.capsules.slots > 0 ? no_primitive : geometry_.planes.first_id;
-  }
+  /// The planes, which have no inside.
+  [[nodiscard]] const PlaneView& planes() const { return geometry_.planes; }
 
   /// The surface that ray k of the block hit. Precondition: it hit one.
   [[nodiscard]] Surface get(std::size_t k) const;

@@ -18,7 +18,8 @@ struct ScatteringHits {
   SurfaceStream surfaces;               ///< of hits that scatter
   const LobeMaterial* const* material;  ///< of hits that scatter
   const std::int32_t* id;               ///< id of the primitive that was hit
-  std::int32_t first_plane;             ///< lower ids are those of spheres
+  std::int32_t first_plane;             ///< the lowest id of a plane
+  std::uint32_t planes;                 ///< how many there are; all others have an inside
   ColorStream throughput;
   const std::uint32_t* sample;
   std::size_t size;

@@ -94,11 +94,12 @@ BOULE_INLINE void scatter_packet(const ScatteringHits& hits, std::size_t first, 
   const ScatteredRays mirrored = scattered_rays(
       {load(found.org, first), met.mirrored, ids, narrow(load_set(found.inside + first)), live},
       before, weights.reflection);
-  const WideMask sphere = widen(~(Bits(hits.first_plane) <= ids));
+  const Bits beyond_first = ids + Bits(0U - static_cast<std::uint32_t>(hits.first_plane));
+  const WideMask solid = widen(Bits(hits.planes) <= beyond_first);
   const Vec3<Wide> beyond =
       move_off(load(found.point, first), met.normal * Wide(-1.0), load(found.reach + first));
   const ScatteredRays refracted =
-      scattered_rays({beyond, weights.refracted, ids, narrow(sphere & ~met.inner), live}, before,
+      scattered_rays({beyond, weights.refracted, ids, narrow(solid & ~met.inner), live}, before,
                      weights.refraction);
   if (mirrored.rays.chosen != 0 && refracted.rays.chosen != 0) {
     add_both_sides(hits, first, mirrored, refracted, spawned);
