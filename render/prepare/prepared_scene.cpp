@@ -60,16 +60,28 @@ std::vector<MaterialRef> materials_of(const std::vector<Capsule>& capsules) {
   return materials;
 }
 
+bool is_emitter(const NamedMaterial& named) {
+  return std::holds_alternative<Emissive>(named.material);
+}
+
+/// Of capsules that shine, for path tracing.
+constexpr const char* shining_note =
+    "capsules that shine are no lights to sample: paths find their light by chance alone, with "
+    "much noise";
+
+bool has_shining_capsules(const Scene& scene) {
+  return std::any_of(scene.capsules.begin(), scene.capsules.end(), [&](const Capsule& capsule) {
+    return is_emitter(scene.materials[capsule.material.index()]);
+  });
+}
+
 /// The spheres that give light, for path tracing.
 std::vector<Sphere> emissive_spheres(const Scene& scene) {
   if (scene.packed) return scene.packed->emissive;
   std::vector<Sphere> emissive;
-  const auto gives_light = [](const NamedMaterial& named) {
-    return std::holds_alternative<Emissive>(named.material);
-  };
-  if (std::none_of(scene.materials.begin(), scene.materials.end(), gives_light)) return emissive;
+  if (std::none_of(scene.materials.begin(), scene.materials.end(), is_emitter)) return emissive;
   const auto is_emissive = [&](const Sphere& s) {
-    return gives_light(scene.materials[s.material.index()]);
+    return is_emitter(scene.materials[s.material.index()]);
   };
   const auto copy_emissive = [&](const std::vector<Sphere>& spheres, std::vector<Sphere>& to) {
     std::copy_if(spheres.begin(), spheres.end(), std::back_inserter(to), is_emissive);
@@ -79,7 +91,7 @@ std::vector<Sphere> emissive_spheres(const Scene& scene) {
   for (std::size_t i = 0; i < scene.groups.size(); ++i)
     copy_emissive(scene.groups[i].spheres, in_groups[i]);
   visit_shown_groups(scene, [&](const ShownGroup& shown) {
-    const bool all = shown.material && gives_light(scene.materials[*shown.material]);
+    const bool all = shown.material && is_emitter(scene.materials[*shown.material]);
     if (shown.material && !all) return;
     for (const Sphere& one : all ? scene.groups[shown.group].spheres : in_groups[shown.group])
       emissive.push_back(transformed(one, shown.transform, shown.material));
@@ -153,6 +165,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   if (auto done = add_camera(scene, width, height, parallel_for, notes); !done) return done.error();
   const bool lit_by_default = lacks_light(scene, method);
   if (lit_by_default) notes.emplace_back(light_note(scene, method));
+  if (method == Method::path && has_shining_capsules(scene)) notes.emplace_back(shining_note);
   EnvironmentLight environment = environment_light(scene, method);
   const bool own_colors = has_own_colors(scene, parallel_for);
   std::vector<Sphere> emissive = emissive_spheres(scene);
@@ -173,7 +186,6 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
                          .environment = std::move(environment),
                          .distortion = std::move(scene.distortion).value_or(DistortionMap{}),
                          .notes = std::move(notes)};
-  prepared.capsule_slots = prepared.geometry.view().capsules.slots;
   if (auto done = reframe(prepared, *scene.camera, width, height); !done) return done.error();
   for (std::string& note : view_notes(prepared.camera_view, width, height, sample))
     prepared.notes.push_back(std::move(note));

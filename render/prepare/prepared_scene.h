@@ -24,7 +24,6 @@ struct PreparedScene {
   Geometry geometry;                      ///< the primitives for rays
   std::vector<Plane> planes;              ///< by id less that of the first plane, for shading
   std::vector<MaterialRef> of_capsules;   ///< by id less that of the first capsule
-  std::size_t capsule_slots = 0;          ///< hits of capsules have lower slots
   std::vector<FlatMaterial> materials;    ///< by MaterialRef::index()
   std::vector<Material> plain_materials;  ///< by MaterialRef::index(): the base of materials in
                                           ///< other colours
@@ -53,10 +52,7 @@ struct PreparedScene {
   [[nodiscard]] bool is_sphere(const Hit& hit) const {
     return !geometry.is_plane(hit) && !is_capsule(hit);
   }
-  /// Ids may be wrong where a packed file supplies the slots of spheres.
-  [[nodiscard]] bool is_capsule(const Hit& hit) const {
-    return geometry.is_capsule(hit) && hit.slot < capsule_slots;
-  }
+  [[nodiscard]] bool is_capsule(const Hit& hit) const { return geometry.is_capsule(hit); }
   /// The plane that was hit. Precondition: the hit is that of a plane.
   [[nodiscard]] const Plane& plane(const Hit& hit) const {
     return planes[static_cast<std::uint32_t>(hit.id) - geometry.sphere_count()];

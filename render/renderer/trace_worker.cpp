@@ -48,8 +48,7 @@ bool enters(const TraceTarget& target, const Ray& ray, const Hit& hit) {
   const bool leaves = hit.id == ray.source;
   if (geometry.is_plane(hit))
     return is_nearer_to_enter(hit.t, reference::find_chord(ray, geometry.plane(hit.id), leaves));
-  // Ids may be wrong where a packed file supplies the slots of spheres.
-  if (geometry.is_capsule(hit) && hit.slot < geometry.view().capsules.slots) {
+  if (geometry.is_capsule(hit)) {
     const Capsule capsule = geometry.capsule(hit.slot);
     return is_nearer_to_enter(hit.t, reference::find_chord(ray, capsule, leaves));
   }

@@ -25,6 +25,7 @@ class CapsuleTree {
   [[nodiscard]] CapsuleView view() const;
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t slots() const { return ids_.size(); }
   /// The capsule in a slot, in the default material. Precondition: there is one.
   [[nodiscard]] Capsule capsule(std::uint32_t slot) const;
 

@@ -62,9 +62,11 @@ class Geometry {
     return static_cast<std::uint32_t>(hit.id) - sphere_count_ < plane_count_;
   }
   [[nodiscard]] std::size_t capsule_count() const { return capsules_ ? capsules_->size() : 0; }
-  /// Whether a hit is that of a capsule. Precondition: it is not a miss.
+  /// Whether a hit is that of a capsule, which is then in its slot: ids may be wrong where a packed
+  /// file supplies the slots of spheres. Precondition: it is not a miss.
   [[nodiscard]] bool is_capsule(const Hit& hit) const {
-    return static_cast<std::uint32_t>(hit.id) - sphere_count_ - plane_count_ < capsule_count();
+    return static_cast<std::uint32_t>(hit.id) - sphere_count_ - plane_count_ < capsule_count() &&
+           hit.slot < capsules_->slots();
   }
   /// The capsule in a slot of a hit, in the default material. Precondition: is_capsule().
   [[nodiscard]] Capsule capsule(std::uint32_t slot) const { return capsules_->capsule(slot); }

@@ -126,6 +126,22 @@ TEST(Prepare, WhittedGivesMatteObjectsADefaultLight) {
   }
 }
 
+TEST(Prepare, TellsOfCapsulesThatShine) {
+  Scene scene = empty_scene(10, 10);
+  add_material(scene, Matte{});
+  add_material(scene, Emissive{});
+  scene.capsules = {{{0, 0, 0}, {1, 0, 0}, 1, 0}};
+  const auto notes = [&](Method method) {
+    scene.lights = {PointLight{}};
+    return prepare(scene, 10, 10, serial_for, method).value().notes;
+  };
+  EXPECT_TRUE(notes(Method::path).empty());
+  scene.capsules[0].material = MaterialRef(1);
+  EXPECT_TRUE(notes(Method::whitted).empty());
+  ASSERT_EQ(notes(Method::path).size(), 1U);
+  EXPECT_NE(notes(Method::path)[0].find("no lights to sample"), std::string::npos);
+}
+
 TEST(Prepare, NonBlackBackgroundsLightPathTracing) {
   Scene scene;
   const auto lights = [&] {
