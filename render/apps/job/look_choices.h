@@ -132,6 +132,8 @@ inline auto bond_choices() {
       choice<L>(bonds, "bond_radius", &L::bond_radius, TextRule{parse_above_0, above_0}, "R",
                 "Radius of bonds and arrows (by the style)"),
       choice<L>(bonds, "cell_edges", &L::cell_edges, FlagRule{}, "", "With the edges of the cell"),
+      choice<L>(bonds, "axes", &L::axes, FlagRule{}, "",
+                "With lines along x, y and z, red, green and blue"),
       choice<L>(bonds, "arrows", &L::arrows,
                 TextRule{parse_arrows, "three columns such as fx,fy,fz, or f for them"}, "COLUMNS",
                 "An arrow at each particle: three columns such as fx,fy,fz, or f for them"),

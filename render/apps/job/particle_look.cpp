@@ -193,6 +193,7 @@ void add_particles(std::string& text, const std::string& file, const LookOptions
   if (options.bond_radius) add_line(text, "bond_radius", number(*options.bond_radius));
   if (!options.bond_color.empty()) add_line(text, "bond_color", toml_string(options.bond_color));
   if (options.cell_edges) add_line(text, "cell_edges", "true");
+  if (options.axes) add_line(text, "axes", "true");
   if (!options.arrows.empty()) {
     const bool is_one = options.arrows.size() == 1;
     add_line(text, "arrows", is_one ? toml_string(options.arrows[0]) : list(options.arrows));

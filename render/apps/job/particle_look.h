@@ -58,6 +58,7 @@ struct LookOptions {
   std::optional<double> bond_radius{};            ///< > 0
   std::string bond_color{};                       ///< of all bonds; empty: of their particles
   bool cell_edges = false;                        ///< are drawn
+  bool axes = false;                              ///< are drawn
   std::vector<std::string> arrows{};              ///< columns of vectors: three, or their one name
   std::optional<double> arrow_scale{};            ///< times the vectors, > 0
   std::optional<double> scale{};                  ///< of the radii, > 0

@@ -52,6 +52,7 @@ const char* option_of(std::string_view key, const LookOptions& look) {
                             {".bond_radius", "--bond-radius", look.bond_radius.has_value()},
                             {".bond_color", "--bond-color", !look.bond_color.empty()},
                             {".cell_edges", "--cell-edges", look.cell_edges},
+                            {".axes", "--axes", look.axes},
                             {".arrows", "--arrows", !look.arrows.empty()},
                             {".arrow_scale", "--arrow-scale", look.arrow_scale.has_value()},
                             {".wrap", "--wrap", look.wrap},

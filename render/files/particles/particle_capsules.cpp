@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/float_environment.h"
+#include "core/math/geometry.h"
 #include "render/files/particles/particle_columns.h"
 #include "render/files/particles/particle_spheres.h"
 #include "render/memory/available_memory.h"
@@ -16,6 +17,12 @@ namespace {
 
 /// Between white paper and a dark background.
 constexpr SrgbColor edge_color{0x80, 0x80, 0x80};
+/// Of x, y and z.
+constexpr std::array<SrgbColor, 3> axis_colors{
+    {{0xd8, 0x28, 0x28}, {0x28, 0x98, 0x30}, {0x28, 0x50, 0xd8}}};
+/// Of the axes, by the longest side of the box around the spheres or, if that is longer, edge of
+/// the cell.
+constexpr double axis_length = 0.25, axis_radius = 0.008;
 
 /// The column of a vector's x, y or z.
 std::string arrow_column(const ParticleFrame& frame, const ArrowColumns& arrows, std::size_t axis) {
@@ -38,6 +45,11 @@ Status ParticleSpheres::add_bonds(const ParticleStyle& style, const BondPlan& pl
     bond_look_.material = MaterialRef::colored(style.material, *style.bond_color);
   if (style.cell_edges) {
     edge_look_ = {cell_edge_radius(*frame.cell), MaterialRef::colored(style.material, edge_color)};
+  }
+  if (style.axes) {
+    axes_.emplace();
+    for (std::size_t k = 0; k < 3; ++k)
+      (*axes_)[k] = MaterialRef::colored(style.material, axis_colors[k]);
   }
   auto bonds = make_bonds(frame, plan, radii_, images_.size(), parallel_for);
   if (!bonds) return bonds.error();
@@ -83,7 +95,7 @@ Status ParticleSpheres::add_arrows(const ParticleStyle& style) {
 
 Status ParticleSpheres::append_capsules_to(std::vector<Capsule>& capsules,
                                            const Vec3d& origin) const {
-  append_cell_edges_to(capsules, origin);
+  append_lines_to(capsules, origin);
   return append_capsules_of(images_, capsules, origin);
 }
 
@@ -93,11 +105,36 @@ Status ParticleSpheres::append_first_capsules_to(std::vector<Capsule>& capsules,
                             origin);
 }
 
-void ParticleSpheres::append_cell_edges_to(std::vector<Capsule>& capsules,
-                                           const Vec3d& origin) const {
-  if (!edge_look_) return;
-  append_cell_edges({frame_->positions, radii_, materials_, frame_->cell, images_, origin},
-                    *edge_look_, capsules);
+void ParticleSpheres::append_lines_to(std::vector<Capsule>& capsules, const Vec3d& origin) const {
+  if (edge_look_) {
+    append_cell_edges({frame_->positions, radii_, materials_, frame_->cell, images_, origin},
+                      *edge_look_, capsules);
+  }
+  append_axes_to(capsules, origin);
+}
+
+/// Three lines from the corner of the cell or, without one, of the box around the spheres.
+void ParticleSpheres::append_axes_to(std::vector<Capsule>& capsules, const Vec3d& origin) const {
+  if (!axes_ || frame_->size() == 0) return;
+  float largest = 0;
+  for (std::size_t i = 0; i < frame_->size(); ++i) largest = std::max(largest, radii_[i]);
+  const Vec3d around = Vec3d{1, 1, 1} * double{largest};
+  Vec3d corner = bounds_[0] - around;
+  const Vec3d sides = bounds_[1] + around - corner;
+  double longest = std::max({sides.x, sides.y, sides.z});
+  if (frame_->cell) {
+    const ParticleCell& cell = *frame_->cell;
+    corner = cell.origin;
+    for (const Vec3d& edge : {cell.a, cell.b, cell.c})
+      longest = std::max(longest, std::sqrt(dot(edge, edge)));
+  }
+  const Vec3d begin = corner - origin;
+  const double length = axis_length * longest;
+  const std::array<Vec3d, 3> along{{{length, 0, 0}, {0, length, 0}, {0, 0, length}}};
+  for (std::size_t k = 0; k < along.size(); ++k) {
+    capsules.push_back({vec_cast<float>(begin), vec_cast<float>(begin + along[k]),
+                        static_cast<float>(axis_radius * longest), (*axes_)[k]});
+  }
 }
 
 Status ParticleSpheres::append_capsules_of(const CellImages& images, std::vector<Capsule>& capsules,

@@ -63,13 +63,13 @@ class ParticleSpheres {
   Status append_to(std::vector<Sphere>& spheres, const Vec3d& origin,
                    const ParallelFor& parallel_for = serial_for) &&;
 
-  /// Appends the capsules: bonds, edges of the cell, arrows. To be called before the spheres are
-  /// appended, with the same origin. An error, and no capsule more, as of spheres.
+  /// Appends the capsules: bonds, edges of the cell, axes, arrows. To be called before the spheres
+  /// are appended, with the same origin. An error, and no capsule more, as of spheres.
   Status append_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
   /// The same of the first image only; pieces of bonds meet where images do.
   Status append_first_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
-  /// The edges of the cell only, which all images have together.
-  void append_cell_edges_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
+  /// The edges of the cell and the axes only, which all images have together.
+  void append_lines_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
   /// Bonds of the particles, those of images not among them.
   [[nodiscard]] std::size_t bonds() const { return bonds_.size(); }
 
@@ -91,6 +91,7 @@ class ParticleSpheres {
   Status add_arrows(const ParticleStyle& style);
   Status append_capsules_of(const CellImages& images, std::vector<Capsule>& capsules,
                             const Vec3d& origin) const;
+  void append_axes_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
   void keep_own(ParticleChoices colors);
   Status place(const ParticleStyle& style, const ParallelFor& parallel_for);
   Status append_images_to(std::vector<Sphere>& spheres, std::size_t images, const Vec3d& origin,
@@ -106,8 +107,9 @@ class ParticleSpheres {
   CellImages images_;
   std::vector<Bond> bonds_;
   BondLook bond_look_;
-  std::optional<BondLook> edge_look_;  ///< if the edges of the cell are drawn
-  std::vector<Vec3d> arrows_;          ///< of each particle; empty: none
+  std::optional<BondLook> edge_look_;               ///< if the edges of the cell are drawn
+  std::optional<std::array<MaterialRef, 3>> axes_;  ///< of x, y, z, if they are drawn
+  std::vector<Vec3d> arrows_;                       ///< of each particle; empty: none
   std::array<Vec3d, 2> bounds_{};
   double smallest_radius_ = 0;
   ParticleColors colors_;

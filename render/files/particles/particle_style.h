@@ -112,6 +112,7 @@ struct ParticleStyle {
   std::optional<double> bond_radius{};    ///< > 0; nothing: one that fits the shape
   std::optional<SrgbColor> bond_color{};  ///< nothing: half bonds have their particles' colours
   bool cell_edges = false;                ///< are drawn
+  bool axes = false;                      ///< are drawn, from a corner
   std::optional<ArrowColumns> arrows{};
   /// Which particles: "type == 1 && x > 0", 'species == "Fe"' (SelectExpression); empty: all.
   std::string select{};

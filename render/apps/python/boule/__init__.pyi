@@ -437,6 +437,7 @@ class Particles:
     bond_radius: float | None
     bond_color: _Color | None
     cell_edges: bool | None
+    axes: bool | None
     arrows: str | Sequence[str] | None
     arrow_scale: float | None
     select: str | None
@@ -463,6 +464,7 @@ class Particles:
         bond_radius: float | None = ...,
         bond_color: _Color | None = ...,
         cell_edges: bool | None = ...,
+        axes: bool | None = ...,
         arrows: str | Sequence[str] | None = ...,
         arrow_scale: float | None = ...,
         select: str | None = ...,
@@ -812,6 +814,7 @@ def load(
     bond_radius: float | None = ...,
     bond_color: str | None = ...,
     cell_edges: bool = ...,
+    axes: bool = ...,
     arrows: str | Sequence[str] | None = ...,
     arrow_scale: float | None = ...,
     select: str | None = ...,
@@ -849,6 +852,7 @@ def frames(
     bond_radius: float | None = ...,
     bond_color: str | None = ...,
     cell_edges: bool = ...,
+    axes: bool = ...,
     arrows: str | Sequence[str] | None = ...,
     arrow_scale: float | None = ...,
     select: str | None = ...,
@@ -885,6 +889,7 @@ def from_particles(
     bond_radius: float | None = ...,
     bond_color: str | None = ...,
     cell_edges: bool = ...,
+    axes: bool = ...,
     arrows: str | Sequence[str] | None = ...,
     arrow_scale: float | None = ...,
     select: str | None = ...,
@@ -916,6 +921,7 @@ def from_ase(
     bond_radius: float | None = ...,
     bond_color: str | None = ...,
     cell_edges: bool = ...,
+    axes: bool = ...,
     arrows: str | Sequence[str] | None = ...,
     arrow_scale: float | None = ...,
     select: str | None = ...,
@@ -980,6 +986,7 @@ def render(
     bond_radius: float | None = ...,
     bond_color: str | None = ...,
     cell_edges: bool = ...,
+    axes: bool = ...,
     arrows: str | Sequence[str] | None = ...,
     arrow_scale: float | None = ...,
     select: str | None = ...,

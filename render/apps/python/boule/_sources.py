@@ -57,8 +57,8 @@ def with_look(*names, also=()):
 # What is said of particles in memory: not how a file is read.
 _OF_MEMORY = (
     "look", "quick", "floor", "color", "colors", "map", "range", "nan_color", "radius", "radii",
-    "scale", "style", "bonds", "bond_radius", "bond_color", "cell_edges", "arrows", "arrow_scale",
-    "select", "wrap", "replicate", "view", "up", "roll", "ortho", "fov", "margin",
+    "scale", "style", "bonds", "bond_radius", "bond_color", "cell_edges", "axes", "arrows",
+    "arrow_scale", "select", "wrap", "replicate", "view", "up", "roll", "ortho", "fov", "margin",
 )  # fmt: skip
 
 
@@ -74,8 +74,8 @@ def load(source, *, frame=None, polygons="plane", **look):
         tells the kinds of the particles), color, colors (a dictionary of colours by kind), map,
         range, nan_color, radius, radii (a dictionary of radii by species), scale, style
         ("space-filling", "balls-and-sticks", "sticks"), bonds (a rule, or a distance),
-        bond_radius, bond_color, cell_edges, arrows (three columns, or the one name that they have
-        before x, y, z), arrow_scale, select, wrap, replicate, view, up, roll, ortho, fov, margin.
+        bond_radius, bond_color, cell_edges, axes, arrows (three columns, or the one name that they
+        have before x, y, z), arrow_scale, select, wrap, replicate, view, up, roll, ortho, fov, margin.
 
     Raises boule.Error with file, line, column and key.
     """

@@ -170,7 +170,7 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
 void TomlObjects::add_images(TomlTable& table, ParticleSpheres particles) {
   Group group{"images of " + table.path(), {}, {}, {}, {}};
   const CellImages images = particles.images();
-  particles.append_cell_edges_to(scene_.capsules, table.origin());
+  particles.append_lines_to(scene_.capsules, table.origin());
   if (auto done = particles.append_first_capsules_to(group.capsules, table.origin()); !done) {
     return table.report("file", done.error().message);
   }

@@ -93,6 +93,7 @@ void read_bond_keys(TomlTable& table, ParticleStyle& style) {
   if (table.has("bond_radius")) style.bond_radius = read_positive(table, "bond_radius", 1);
   if (table.has("bond_color")) style.bond_color = read_color_codes(table, "bond_color");
   table.read("cell_edges", style.cell_edges);
+  table.read("axes", style.axes);
   if (table.has("arrows")) {
     style.arrows = read_arrows(table);
   } else if (table.has("arrow_scale")) {

@@ -67,6 +67,7 @@ TEST(ParticleLook, HasTheOptionsOfBonds) {
   look.bond_radius = 0.1;
   look.bond_color = "Silver";
   look.cell_edges = true;
+  look.axes = true;
   look.arrows = {"fx", "fy", "fz"};
   look.arrow_scale = 2;
   EXPECT_THAT(scene_of(look), HasSubstr("style = \"balls-and-sticks\"\n"
@@ -74,6 +75,7 @@ TEST(ParticleLook, HasTheOptionsOfBonds) {
                                         "bond_radius = 0.1\n"
                                         "bond_color = \"Silver\"\n"
                                         "cell_edges = true\n"
+                                        "axes = true\n"
                                         "arrows = [\"fx\", \"fy\", \"fz\"]\n"
                                         "arrow_scale = 2\n"));
   look.bonds = "auto";

@@ -135,6 +135,28 @@ TEST(ParticleBonds, WhatFilesLackIsAnError) {
   EXPECT_EQ(bonds_of(ParticleFrame(), BondRule::file), 0U);
 }
 
+/// From the corner of the cell, or of the box around the spheres, a quarter of the longest side of
+/// either.
+TEST(ParticleBonds, AxesStandAtACorner) {
+  const auto expect_axes = [](const ParticleFrame& frame, const Vec3f& corner, float length) {
+    const auto axes = capsules_of(frame, {.radius = 1.0, .axes = true}, {0, 0, 2});
+    ASSERT_EQ(axes.size(), 3U);
+    EXPECT_EQ(axes[0].b - axes[0].a, (Vec3f{length, 0, 0}));
+    EXPECT_EQ(axes[1].b - axes[1].a, (Vec3f{0, length, 0}));
+    EXPECT_EQ(axes[2].b - axes[2].a, (Vec3f{0, 0, length}));
+    for (const Capsule& axis : axes) EXPECT_EQ(axis.a, corner);
+    EXPECT_EQ(hex_text(axes[0].material.color()), "#d82828");
+    EXPECT_EQ(hex_text(axes[2].material.color()), "#2850d8");
+  };
+  ParticleFrame frame = row_of_particles(4);  // a box of 5 x 2 x 2
+  expect_axes(frame, {-1, -1, -3}, 1.25F);
+  frame.cell = ParticleCell{{4, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-2, 3, 4}, {}};
+  expect_axes(frame, {-2, 3, 2}, 1.25F);
+  frame.cell->b = {0, 8, 0};
+  expect_axes(frame, {-2, 3, 2}, 2);
+  EXPECT_THAT(capsules_of(ParticleFrame(), {.axes = true}), IsEmpty());
+}
+
 TEST(ParticleBonds, SmallMoleculesWithBondsStartWithThem) {
   const auto bonded = with_bonds(water(), {{0, 1}, {0, 2}, {3, 4}, {3, 5}});
   EXPECT_EQ(capsules_of(bonded, {}).size(), 8U);
