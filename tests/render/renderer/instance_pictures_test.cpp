@@ -198,8 +198,8 @@ TEST(Instances, IdsBeyond31BitsNeedUnsignedOutput) {
             "shows more than 2147483647 primitives: solver reference has no ids for them");
 }
 
-/// Images of particles in their cell.
-TEST(Instances, ReplicatedParticlesMatchTheExpandedScene) {
+/// A scene of particles in their cell, and images of it, instances from so many spheres on.
+Scene replicated_scene(const std::string& keys, std::uint64_t fewest) {
   SceneFolder files;
   std::string text = "5000\nLattice=\"9 0 0 1 8 0 0 0 7\" Properties=species:S:1:pos:R:3\n";
   CaseRandom random(15);
@@ -209,18 +209,20 @@ TEST(Instances, ReplicatedParticlesMatchTheExpandedScene) {
     text += "\n";
   }
   static_cast<void>(files.write("cell.xyz", text));
-  const auto load = [&files](std::uint64_t fewest) {
-    SceneFileOptions options;
-    options.fewest_shared = fewest;
-    return files
-        .load("scene.toml",
-              "schema = 1\n[image]\nsize = [48, 36]\n[[particles]]\nfile = "
-              "\"cell.xyz\"\nreplicate = [3, 4, 3]\n",
-              options)
-        .value()
-        .scene;
-  };
-  const Scene shared = load(0), listed = load(180'001);
+  SceneFileOptions options;
+  options.fewest_shared = fewest;
+  return files
+      .load("scene.toml",
+            "schema = 1\n[image]\nsize = [48, 36]\n[[particles]]\nfile = "
+            "\"cell.xyz\"\nreplicate = [3, 4, 3]\n" +
+                keys,
+            options)
+      .value()
+      .scene;
+}
+
+TEST(Instances, ReplicatedParticlesMatchTheExpandedScene) {
+  const Scene shared = replicated_scene("", 0), listed = replicated_scene("", 180'001);
   EXPECT_TRUE(groups_to_share(shared));
   EXPECT_TRUE(listed.instances.empty());
   Scene flat = shared;
@@ -236,6 +238,21 @@ TEST(Instances, ReplicatedParticlesMatchTheExpandedScene) {
     ASSERT_LE(most, 3 * 0x1p-20F) << i;
     ASSERT_TRUE(a.radius == b.radius && a.material == b.material) << i;
   }
+}
+
+/// Their bonds, too; the edges of the cell are those of all images together.
+TEST(Instances, ReplicatedBondsMatchTheExpandedScene) {
+  const std::string keys = "style = \"sticks\"\nbonds = 0.3\ncell_edges = true\n";
+  const Scene shared = replicated_scene(keys, 0), listed = replicated_scene(keys, 180'001);
+  EXPECT_TRUE(groups_to_share(shared));
+  EXPECT_EQ(shared.capsules.size(), 12U);
+  ASSERT_EQ(shared.groups.size(), 1U);
+  EXPECT_GT(shared.groups[0].capsules.size(), 1000U);
+  Scene flat = shared;
+  expand_instances(flat);
+  EXPECT_GT(flat.capsules.size(), 36U * 1000);
+  EXPECT_GE(flat.capsules.size(), listed.capsules.size());  // where images meet, bonds are whole
+  EXPECT_EQ(differing_pixels(render(shared), render(flat)), 0);
 }
 
 /// What is shared is hashed as it is: everything that a picture depends on counts.

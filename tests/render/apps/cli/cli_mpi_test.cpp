@@ -148,6 +148,13 @@ TEST_P(MpiTest, NoiseTargetGivesTheSamePictureToo) {
   EXPECT_EQ(read("a.exr"), read("whole.exr"));
 }
 
+TEST_P(MpiTest, BondsGiveTheSamePictureToo) {
+  ASSERT_EQ(boule_run(render_bonds("whole.exr")).exit_code, 0);
+  const ProgramRun run = mpirun(ranks(3, render_bonds("a.exr", {"-t", "1"})));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read("a.exr"), read("whole.exr"));
+}
+
 TEST_P(MpiTest, AShardToo) {
   const ProgramRun run = mpirun(ranks(3, render("a.film", {"--shard", "1/2", "-t", "1"})));
   EXPECT_EQ(run.exit_code, 0) << run.err;

@@ -71,6 +71,19 @@ TEST_F(Shards, PicturesWhoseNoiseIsAskedForToo) {
   EXPECT_EQ(read("merged.exr"), read("whole.exr"));
 }
 
+TEST_F(Shards, PicturesOfBondsToo) {
+  ASSERT_EQ(boule_run(render_bonds("whole.exr")).exit_code, 0);
+  std::vector<std::string> films;
+  for (const std::string shard : {"1/3", "2/3", "3/3"}) {
+    const std::string film = "b" + shard.substr(0, 1) + ".film";
+    films.push_back(path(film));
+    ASSERT_EQ(boule_run(render_bonds(film, {"--shard", shard})).exit_code, 0);
+  }
+  const ProgramRun run = boule_run(merge(films));
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(read("merged.exr"), read("whole.exr"));
+}
+
 /// Edges, too: a block needs the centres of the pixels around it, which it renders itself.
 TEST_F(Shards, AntialiasedPicturesToo) {
   const auto words = [&](const std::string& output, const std::vector<std::string>& more) {

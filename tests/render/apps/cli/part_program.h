@@ -55,6 +55,27 @@ class PartTest : public ProgramTest {
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
+  /// `render` of particles with bonds, in the edges of their cell.
+  std::vector<std::string> render_bonds(const std::string& output,
+                                        const std::vector<std::string>& more = {}) const {
+    std::string text = "60\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3\n";
+    for (int i = 0; i < 60; ++i) {
+      text += i % 3 == 0 ? "O" : "C";
+      for (const int step : {7, 11, 17}) text += " " + std::to_string(i * step % 60 / 10.0);
+      text += "\n";
+    }
+    std::vector<std::string> words = {"render",       write("bonds.xyz", text),
+                                      "-o",           path(output),
+                                      "--size",       "97x61",
+                                      "--spp",        "3",
+                                      "--tile",       "16",
+                                      "--aov",        "id",
+                                      "--style",      "balls-and-sticks",
+                                      "--bonds",      "2",
+                                      "--cell-edges", "-q"};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
   /// The bytes of the picture of one run without interruption.
   std::string whole_picture(const std::string& spp = "20") const {
     const ProgramRun run = boule_run(render("whole.exr", {}, spp));
