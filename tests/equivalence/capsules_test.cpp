@@ -108,8 +108,10 @@ TEST_P(HardCapsules, ManyEqualTheScalarPath) {
 std::vector<Capsule> random_capsules(CaseRandom& random, int count, double size) {
   std::vector<Capsule> capsules;
   for (int i = 0; i < count; ++i) {
-    const Vec3d a = random.direction() * random.uniform(0, 5);
-    const Vec3d along = random.direction() * random.uniform(0, size);
+    const Vec3d to_a = random.direction();
+    const Vec3d a = to_a * random.uniform(0, 5);
+    const Vec3d to_b = random.direction();
+    const Vec3d along = to_b * random.uniform(0, size);
     const auto radius = static_cast<float>(random.decade(-2, -0.5));
     capsules.push_back({vec_cast<float>(a), vec_cast<float>(a + along), radius, {}});
   }
@@ -126,8 +128,10 @@ CapsuleScene random_scene(std::uint64_t seed, int capsules, int rays) {
   }
   scene.planes = {{{0, -3, 0}, {0, 1, 0}}, {{0, 0, 0}, {1, 2, -3}}};
   for (int i = 0; i < rays; ++i) {
-    const Vec3d from = random.direction() * random.uniform(0, 12);
-    Ray ray{from, vec_cast<float>(random.direction() * 4.0 - from * random.uniform(0, 1))};
+    const Vec3d away = random.direction();
+    const Vec3d from = away * random.uniform(0, 12);
+    const Vec3d beside = random.direction() * 4.0;
+    Ray ray{from, vec_cast<float>(beside - from * random.uniform(0, 1))};
     if (i % 3 == 1) ray.tmin = random.uniform(-1, 1);
     if (i % 4 == 1) ray.tmax = random.uniform(0, 2);
     scene.rays.push_back(ray);
