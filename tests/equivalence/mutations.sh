@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
-# mutations.sh SOURCE BUILD: takes the bounds of filter_bounds.h away, one by one, and breaks ways that
+# mutations.sh SOURCE BUILD [PATTERN]: takes the bounds of filter_bounds.h away, one by one, and breaks ways that
 # few rays go. The equivalence tests must see it every time, and must pass where nothing is broken.
 # One program serves for all: a copy of the source asks the environment which of its mutants it is,
 # BOULE_MUTANT. It has all instruction sets: some ways are of four lanes alone, some of sixteen.
+# PATTERN: only mutants whose names match this extended regular expression.
 set -euo pipefail
-source="$1" build="$2"
+source="$1" build="$2" pattern="${3:-.}"
 copy="$build/source"
 bounds="simd/abi/filter_bounds.h"
 tests="$build/build/tests/equivalence/boule_test_equivalence"
@@ -72,6 +73,7 @@ bundle_width 100
 bundle_across 1e9
 bundle_far 1e38
 capsule 0
+aside 0
 BOUNDS
 
 # breaks NAME FILE SCRIPT: BROKEN stands for whether the program is this mutant.
@@ -146,4 +148,4 @@ export tests build
 export -f passes judge
 
 passes "none" "$build/log" || { echo "nothing is broken, and tests fail"; cat "$build/log"; exit 1; }
-grep -n . "$build/mutants" | sed 's/:/\n/' | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'judge "$@"' judge
+grep -nE "$pattern" "$build/mutants" | sed 's/:/\n/' | xargs -d '\n' -P "$(nproc)" -n 2 bash -c 'judge "$@"' judge
