@@ -77,7 +77,7 @@ def block(report):
         f"{measured}: one thread, {report['widest']}, million rays a second, the same "
         f"{embree['rows'][0]['count']} camera rays of each scene, Embree in the best of its modes. A hit is wrong "
         "if an independent tree in double finds another one. uN: N balls at random; flakeN: a sphereflake of N "
-        "levels.")
+        "levels; sticksN: N atoms with bonds.")
 
 
 def with_block(readme, report):
