@@ -1,5 +1,5 @@
-// A few capsules, against which kernels hold groups of rays before they load any: the answers are
-// the scalar path's, also of rays that graze a capsule.
+// A few capsules, or the boxes of more, against which kernels hold groups of rays before they load
+// any: the answers are the scalar path's, also of rays that graze a capsule.
 #include <limits>
 
 #include "tests/support/case_random.h"
@@ -47,7 +47,8 @@ std::vector<Capsule> edges_and_others(CaseRandom& random, float radius, int othe
     }
   }
   for (int i = 0; i < others; ++i) {
-    const Vec3d a = random.direction() * 0.8, b = random.direction() * 0.8;
+    const Vec3d a = random.direction() * 0.8;
+    const Vec3d b = random.direction() * 0.8;
     capsules.push_back({vec_cast<float>(a), vec_cast<float>(b), radius, {}});
   }
   return capsules;
@@ -60,8 +61,10 @@ std::vector<Ray> tiles(CaseRandom& random, Coherence coherence, double distance)
   const Vec3d apex = random.direction() * distance;
   for (int tile = 0; tile < 40; ++tile) {
     const double size = random.decade(-4, -0.5);
-    const Vec3d across = random.direction() * size, aside = random.direction() * size;
-    const Vec3d middle = random.direction() * random.uniform(0, 1.8);
+    const Vec3d across = random.direction() * size;
+    const Vec3d aside = random.direction() * size;
+    const Vec3d away = random.direction();
+    const Vec3d middle = away * random.uniform(0, 1.8);
     for (int k = 0; k < 64; ++k) {
       const Vec3d at = middle + across * (k % 8 - 3.5) + aside * (k / 8 - 3.5);
       const Vec3f along = vec_cast<float>(at - apex);
@@ -84,7 +87,7 @@ TEST_P(FewCapsules, CoherentRaysEqualTheScalarPath) {
   for (const Coherence coherence :
        {Coherence::common_origin, Coherence::common_direction, Coherence::common_end}) {
     for (const double distance : {0.3, 3.0, 50.0, 1e6}) {
-      for (const int others : {0, 4, 5}) {
+      for (const int others : {0, 4, 5, 70}) {
         SCOPED_TRACE(distance);
         const std::vector<Capsule> capsules = edges_and_others(random, 0.02F, others);
         const std::vector<Ray> some = tiles(random, coherence, distance);
@@ -145,14 +148,16 @@ void graze(Ray& ray, const Capsule& capsule, const Vec3d& away) {
 TEST_P(FewCapsules, GrazingRaysEqualTheScalarPath) {
   CaseRandom random(33);
   for (int trial = 0; trial < 2000; ++trial) {
-    const Vec3d a = random.direction(), b = a + random.direction() * random.decade(-2, 0);
-    const Capsule capsule{
-        vec_cast<float>(a), vec_cast<float>(b), static_cast<float>(random.decade(-3, -0.5)), {}};
+    const Vec3d a = random.direction();
+    const Vec3d along = random.direction();
+    const Vec3d b = a + along * random.decade(-2, 0);
+    const auto radius = static_cast<float>(random.decade(-3, -0.5));
+    const Capsule capsule{vec_cast<float>(a), vec_cast<float>(b), radius, {}};
     const Vec3d middle = (vec_cast<double>(capsule.a) + vec_cast<double>(capsule.b)) * 0.5;
-    const Vec3d dir = random.direction();
-    Ray ray{middle - dir * random.uniform(2, 9), vec_cast<float>(dir)};
-    const Vec3d other = random.direction(), away = other - dir * dot(other, dir);
+    const Vec3d dir = random.direction(), other = random.direction();
+    Ray ray{middle, vec_cast<float>(dir)};
     ray.org = middle - vec_cast<double>(ray.dir) * 5.0;
+    const Vec3d away = other - dir * dot(other, dir);
     graze(ray, capsule, away);
     ASSERT_NE(reference_hit(ray, {capsule}).id, no_primitive);
     expect_reference_hits({capsule}, {ray}, Coherence::common_origin);
