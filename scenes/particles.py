@@ -7,6 +7,7 @@ salt.xyz    a cube of sodium chloride
 heap.xyz    grains of many sizes that were poured on a floor, with their speeds
 disc.csv    a galaxy: stars on circles, with their speeds
 wave.xyz    a chain of 40 atoms that swings: a trajectory of 10 frames
+bilayer.data  a membrane of 128 lipids, four kinds of beads and their bonds, in the format of LAMMPS
 """
 import math
 import random
@@ -130,6 +131,53 @@ def wave():
                 file.write("%.2f 0 %.3f %.3f\n" % (0.5 * i, 2 * math.sin(phase), -math.cos(phase)))
 
 
+def lipid(rng, x, y, side):
+    """Choline, phosphate, two of glycerol and two tails of four beads: kind and place of each; and their bonds."""
+    beads, bonds = [], []
+
+    def add(kind, at, to=None):
+        beads.append((kind, at))
+        if to is not None:
+            bonds.append((to, len(beads) - 1))
+        return len(beads) - 1
+
+    def beside(at, down, apart):
+        way = rng.uniform(0, 2 * math.pi)
+        return (at[0] + apart * math.cos(way), at[1] + apart * math.sin(way), at[2] - side * down)
+
+    phosphate = (x, y, side * (20 + rng.gauss(0, 0.8)))
+    root = add(2, phosphate)
+    add(1, beside(phosphate, -2.5, 3.5), root)
+    lean = rng.uniform(0, 2 * math.pi)
+    for sign in (-1, 1):
+        at = (x + sign * 2.2 * math.cos(lean), y + sign * 2.2 * math.sin(lean),
+              phosphate[2] - side * (3.5 + 0.8 * sign))
+        root = last = add(3, at, root)
+        for _ in range(4):
+            at = beside(at, 3.9, 1.6)
+            last = add(4, at, last)
+    return beads, bonds
+
+
+def bilayer():
+    rng, n, step = random.Random(6), 8, 8.0
+    beads, bonds = [], []
+    for side in (1, -1):
+        for i in range(n):
+            for j in range(n):
+                new, joined = lipid(rng, step * (i + 0.5 + rng.gauss(0, 0.08)), step * (j + 0.5 + rng.gauss(0, 0.08)),
+                                    side)
+                bonds += [(a + len(beads), b + len(beads)) for a, b in joined]
+                beads += new
+    with open("bilayer.data", "w", encoding="ascii") as file:
+        file.write(f"A membrane, in angstrom\n\n{len(beads)} atoms\n{len(bonds)} bonds\n4 atom types\n1 bond types\n\n"
+                   f"0 {n * step:g} xlo xhi\n0 {n * step:g} ylo yhi\n-32 32 zlo zhi\n\nAtoms # bond\n\n")
+        for i, (kind, (x, y, z)) in enumerate(beads):
+            file.write(f"{i + 1} {i // 12 + 1} {kind} {x:.2f} {y:.2f} {z:.2f}\n")
+        file.write("\nBonds\n\n")
+        file.writelines(f"{i + 1} 1 {a + 1} {b + 1}\n" for i, (a, b) in enumerate(bonds))
+
+
 if __name__ == "__main__":
-    for make in (gold, slab, salt, heap, disc, wave):
+    for make in (gold, slab, salt, heap, disc, wave, bilayer):
         make()

@@ -32,7 +32,7 @@ mkdir "$work/blocks" "$work/here"
 selected=("${@:4}")
 ((${#selected[@]} > 0)) || mapfile -t selected < <(pages "$source")
 (cd "$source" && printf '%s\n' "${selected[@]}" | xargs awk -v folder="$work/blocks" -f "$here/blocks.awk")
-cp "$source"/scenes/*.{toml,npy,exr,lens,xyz,csv} "$work/here"
+cp "$source"/scenes/*.{toml,npy,exr,lens,xyz,csv,data} "$work/here"
 cd "$work/here"
 ln -s . scenes
 npy '2, 3' 24 >cloud.npy
