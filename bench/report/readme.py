@@ -76,8 +76,8 @@ def block(report):
     return f"{claims(embree['embree'], duels)}\n{table(duels)}\n" + wrap(
         f"{measured}: one thread, {report['widest']}, million rays a second, the same "
         f"{embree['rows'][0]['count']} camera rays of each scene, Embree in the best of its modes. A hit is wrong "
-        "if an independent tree in double finds another one. uN: N balls at random; flakeN: a sphereflake of N "
-        "levels; sticksN: N atoms with bonds.")
+        "if an independent tree in double finds another one. uN: N balls at random; sticksN: N atoms with bonds; "
+        "flakeN: a sphereflake of N levels.")
 
 
 def with_block(readme, report):
