@@ -8,6 +8,7 @@
 #include "core/math/color_names.h"
 #include "render/apps/job/look_values.h"
 #include "render/apps/job/option_values.h"
+#include "render/files/file/unpack.h"
 #include "render/files/particle_file/particle_file.h"
 #include "render/image/image_format.h"
 #include "simd/dispatch/dispatch.h"
@@ -105,7 +106,7 @@ Words file_endings(const OptionFacts& option) {
   if (option.value == "SCENE" || option.value == "FILE") {
     for (const std::string& ending : parts_of(known_particle_endings(), " "))
       endings.push_back(ending);
-    for (const char* packed : {".gz", ".zst"}) endings.emplace_back(packed);
+    for (const std::string_view packed : packed_endings) endings.emplace_back(packed);
   }
   std::sort(endings.begin(), endings.end());
   endings.erase(std::unique(endings.begin(), endings.end()), endings.end());

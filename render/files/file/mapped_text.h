@@ -11,7 +11,7 @@
 namespace boule {
 
 /// The bytes of a regular file, to be read at random: mapped into memory, so that only what is
-/// read costs memory, or unpacked into memory if its content is gzip's or Zstandard's.
+/// read costs memory, or unpacked into memory if its content is packed (Packing).
 ///
 /// Files of up to 16 MiB are read instead. A larger file that is not packed must keep its length
 /// for as long as its text is used: if another program cuts it off, the system ends the process

@@ -9,6 +9,7 @@
 #include "render/files/file/input_file.h"
 #include "render/files/file/mapped_text.h"
 #include "render/files/file/npz_member.h"
+#include "render/files/file/unpack.h"
 #include "render/files/particle_file/frame/other_formats.h"
 #include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/text/named_columns.h"
@@ -19,7 +20,7 @@ namespace {
 /// The file's name in lower case, without its folder and without an ending of compression.
 std::string bare_name(std::string_view path) {
   std::string name = ascii_lower(path.substr(path.rfind('/') + 1));  // npos + 1 is 0
-  for (const std::string_view packed : {".gz", ".zst"}) {
+  for (const std::string_view packed : packed_endings) {
     if (!name.ends_with(packed)) continue;
     name.resize(name.size() - packed.size());
     break;

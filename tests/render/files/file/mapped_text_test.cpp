@@ -17,13 +17,23 @@ namespace {
 using test::TempDir;
 using testing::HasSubstr;
 
-/// "hello\n", packed by gzip -n and by zstd.
+/// "hello\n", packed by gzip -n, zstd, bzip2 and xz.
 const std::string gzip_hello(
     "\x1f\x8b\x08\x00\x00\x00\x00\x00\x00\x03\xcb\x48\xcd\xc9\xc9\xe7\x02\x00\x20\x30\x3a\x36\x06"
     "\x00\x00\x00",
     26);
 const std::string zstd_hello(
     "\x28\xb5\x2f\xfd\x24\x06\x31\x00\x00\x68\x65\x6c\x6c\x6f\x0a\x53\x88\xbd\x91", 19);
+
+const std::string bzip2_hello(
+    "\x42\x5a\x68\x39\x31\x41\x59\x26\x53\x59\xc1\xc0\x80\xe2\x00\x00\x01\x41\x00\x00\x10\x02\x44"
+    "\xa0\x00\x30\xcd\x00\xc3\x46\x29\x97\x17\x72\x45\x38\x50\x90\xc1\xc0\x80\xe2",
+    42);
+const std::string xz_hello(
+    "\xfd\x37\x7a\x58\x5a\x00\x00\x04\xe6\xd6\xb4\x46\x02\x00\x21\x01\x16\x00\x00\x00\x74\x2f\xe5"
+    "\xa3\x01\x00\x05\x68\x65\x6c\x6c\x6f\x0a\x00\x00\x00\xa5\x60\x97\xf1\x94\xf6\xfd\xe0\x00\x01"
+    "\x1e\x06\xc1\x2f\xa4\x1d\x1f\xb6\xf3\x7d\x01\x00\x00\x00\x00\x04\x59\x5a",
+    64);
 
 /// What a file of these bytes is read as, or the error.
 std::string text_of(const std::string& bytes) {
@@ -73,13 +83,17 @@ TEST(MappedText, UnpacksAllMembersAndFrames) {
   EXPECT_EQ(text_of(gzip_hello), "hello\n");
   EXPECT_EQ(text_of(gzip_hello + gzip_hello + std::string(512, '\0')), "hello\nhello\n");
   EXPECT_EQ(text_of(zstd_hello), "hello\n");
+  for (const std::string& packed : {bzip2_hello, xz_hello}) {
+    EXPECT_EQ(text_of(packed), "hello\n");
+    EXPECT_EQ(text_of(packed + packed + std::string(512, '\0')), "hello\nhello\n");
+  }
   const std::string skipped("\x50\x2a\x4d\x18\x02\x00\x00\x00zz", 10);
   EXPECT_EQ(text_of(skipped + zstd_hello + skipped + zstd_hello), "hello\nhello\n");
   EXPECT_EQ(text_of(zstd_repeated(100)), std::string(100 << 17, 'a'));
 }
 
 TEST(MappedText, RefusesDamage) {
-  for (const std::string& packed : {gzip_hello, zstd_hello}) {
+  for (const std::string& packed : {gzip_hello, zstd_hello, bzip2_hello, xz_hello}) {
     for (std::size_t size = 4; size < packed.size(); ++size) {
       EXPECT_THAT(text_of(packed.substr(0, size)), HasSubstr("are damaged: the file ends before"));
     }

@@ -114,10 +114,10 @@ TEST(ParticleFile, ErrorsSayWhatHelpsWithOtherFormats) {
 }
 
 TEST(ParticleFile, OtherPackersAreNamed) {
-  EXPECT_THAT(particle_error("a.xyz.bz2", "BZh91AY&SY"),
-              HasSubstr("it is packed by bzip2, which is not read; unpack it first (bunzip2)"));
-  EXPECT_THAT(particle_error("a.xyz", std::string("\xfd\x37zXZ\0\0", 7)),
-              HasSubstr("it is packed by xz, which is not read; unpack it first (unxz)"));
+  EXPECT_THAT(particle_error("a.xyz.lzma", std::string("\x5d\0\0\x80", 4)),
+              HasSubstr("it is packed by LZMA, which is not read; unpack it first (unlzma)"));
+  EXPECT_THAT(particle_error("a.xyz", std::string("\x04\x22\x4d\x18", 4)),
+              HasSubstr("it is packed by LZ4, which is not read; unpack it first (unlz4)"));
 }
 
 TEST(ParticleFile, ErrorsNameTheFile) {
