@@ -18,7 +18,7 @@ readonly test_packages=(bash-completion binutils chromium-driver clang-format cl
   mandoc mpich openmpi-bin pkg-config python3-ase python3-gemmi python3-selenium qemu-user zsh)
 # For the package boule, and what its tests hold it against.
 readonly python_packages=(python3-dev python3-numpy python3-pybind11 pybind11-dev)
-readonly python_test_packages=(mypy python3-ase python3-ipykernel python3-matplotlib python3-mdanalysis
+readonly python_test_packages=(mypy python3-ase python3-h5py python3-ipykernel python3-matplotlib python3-mdanalysis
   python3-nbclient python3-pytest python3-sphinx)
 readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev python3-matplotlib)
 readonly package_packages=(debhelper dh-python dpkg-dev git libmpich-dev libopenmpi-dev lintian)

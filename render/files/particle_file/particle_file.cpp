@@ -127,14 +127,17 @@ Diagnostic in_file(Diagnostic error, const std::string& path) {
 Result<ParticleFrame> open_topology(const ParticleFileOptions& options,
                                     const ParallelFor& parallel_for) {
   if (options.topology.empty()) return ParticleFrame{};
-  const ParticleFileOptions its{.water = true, .wanted = options.wanted, .places_matter = false};
+  const ParticleFileOptions its{.water = true,
+                                .wanted = options.wanted,
+                                .most_bonded = options.most_bonded,
+                                .places_matter = false};
   auto file = ParticleFile::open(options.topology, its, parallel_for);
   if (!file) return file.error();
   return file.value().read(0, parallel_for);
 }
 
-/// Gives a frame the kinds of a topology, and the columns that it lacks but for velocities, which
-/// are those of another time.
+/// Gives a frame the kinds and bonds of a topology, and the columns that it lacks but for
+/// velocities, which are those of another time.
 Status add_topology(const ParticleFrame& topology, ParticleFrame& frame) {
   if (topology.size() != frame.size()) {
     return Diagnostic::about("topology", "it has " + std::to_string(topology.size()) +
@@ -143,6 +146,10 @@ Status add_topology(const ParticleFrame& topology, ParticleFrame& frame) {
   }
   for (const std::string& note : topology.notes) frame.notes.push_back("topology: " + note);
   if (topology.species) frame.species = topology.species;
+  if (!topology.bonds.empty()) {
+    frame.bonds = topology.bonds;
+    frame.lists_all_bonds = topology.lists_all_bonds;
+  }
   for (const TextColumn& column : topology.texts) {
     if (find_text_column(frame, column.name) == nullptr) frame.texts.push_back(column);
   }

@@ -21,6 +21,7 @@ That to a request:
                             and one of N indices into them, 4 bytes each, from 0
     text K BYTES NAME       a column of texts, likewise
     number NAME             a column of numbers, a block of N doubles
+    bonds B                 all that there are: a block of 2 B indices of particles, 4 bytes each
     cell A B C O            twelve numbers, three edges and the corner; digits suffice for the double
     periodic A B C          0 or 1 along each edge
     angstrom X              how many one unit of length has; 1 without this line
@@ -54,7 +55,7 @@ psf               | a PSF topology             | MDAnalysis | PSF
 prmtop parm7 top  | an Amber topology          | MDAnalysis | PRMTOP
 tpr               | a TPR topology             | MDAnalysis | TPR
 gsd               | a GSD trajectory           | gsd        | -
-h5md h5 hdf5      | an H5MD trajectory         | h5py       | -
+h5md h5 hdf5      | a file of HDF5             | h5py       | -
 vtk               | a VTK file                 | vtk meshio | vtk
 vtu               | a VTK file                 | vtk meshio | vtu
 vtp               | a VTK file                 | vtk        | -
@@ -114,6 +115,7 @@ class Frame:
         self.count = 0 if positions is None else len(positions)
         self.species = None  # a column of kinds, as those of columns
         self.columns = []  # (name, N numbers or N texts or what coded() returns)
+        self.bonds = None  # B x 2
         self.cell = None  # 3 x 3
         self.origin = (0, 0, 0)
         self.periodic = (True, True, True)
@@ -169,7 +171,7 @@ class ByMDAnalysis:
                "radii": "radius", "occupancies": "occupancy", "tempfactors": "bfactor"}  # fmt: skip
 
     def __init__(self, mda, path, form, count):
-        self.species, self.columns, self.trajectory = None, [], None
+        self.species, self.columns, self.trajectory, self.bonds = None, [], None, None
         if form in STRUCTURES or form in TOPOLOGIES:
             universe = mda.Universe(path, topology_format=form)
             self.take_names(universe.atoms)
@@ -193,6 +195,8 @@ class ByMDAnalysis:
         for attribute, name in self.NUMBERS.items():
             if hasattr(atoms, attribute):
                 self.columns.append((name, numpy.array(getattr(atoms, attribute))))
+        if hasattr(atoms.universe, "bonds"):
+            self.bonds = atoms.universe.bonds.indices
 
     def read(self, number):
         frame = Frame(None)
@@ -207,8 +211,7 @@ class ByMDAnalysis:
                 frame.notes.append(f"MDAnalysis converted lengths from {native} to angstrom")
             if step.has_velocities:
                 frame.add("velocity", step.velocities)
-        frame.count = self.count
-        frame.species = self.species
+        frame.count, frame.species, frame.bonds = self.count, self.species, self.bonds
         for name, values in self.columns:
             frame.add(name, values)
         return frame
@@ -269,17 +272,126 @@ class ByGSD:
             has = self.trajectory.file.chunk_exists
             if any(has(frame=i, name="particles/" + name) for i in (0, number)):
                 frame.add(name, getattr(step.particles, name))
+        frame.bonds = step.bonds.group
         return frame
 
 
-class ByH5py:
-    """H5MD: the first group of particles that has positions."""
+def by_h5py(h5py, path, _form, _count):
+    """Which family a file of HDF5 is of, its groups tell."""
+    file = h5py.File(path, "r")
+    if any(f"PartType{i}" in file for i in range(7)):
+        return BySnapshot(file)
+    return ByOpenPMD(file) if "openPMD" in file.attrs else ByH5MD(h5py, file)
 
-    def __init__(self, h5py, path, _form, _count):
-        self.h5py, self.file, self.note = h5py, h5py.File(path, "r"), None
+
+class BySnapshot:
+    """GADGET and its family: AREPO, SWIFT, GIZMO. All types of particles, in their order."""
+
+    frames = 1
+    NAMES = {0: "gas", 1: "halo", 2: "disk", 3: "bulge", 4: "stars", 5: "black holes", 6: "neutrinos"}
+
+    def __init__(self, file):
+        self.file = file
+        self.groups = [(i, file[f"PartType{i}"]) for i in range(7) if f"PartType{i}" in file]
+        self.groups = [(i, group) for i, group in self.groups if "Coordinates" in group]
+        if not self.groups:
+            raise Failure("no PartType of it has Coordinates")
+
+    def read(self, _number):
+        counts = [len(group["Coordinates"]) for _, group in self.groups]
+        frame = Frame(numpy.concatenate([group["Coordinates"][()] for _, group in self.groups]))
+        index = numpy.repeat(numpy.arange(len(counts)), counts)
+        frame.species = ("type", ([self.NAMES[i] for i, _ in self.groups], index))
+        header = self.file["Header"].attrs if "Header" in self.file else {}
+        box = numpy.ravel(header.get("BoxSize", 0.0))
+        frame.set_cell(numpy.diag(numpy.broadcast_to(box, 3) if len(box) in (1, 3) else [0.0] * 3))
+        if "Time" in header:
+            frame.time = float(numpy.ravel(header["Time"])[0])
+        parts = int(numpy.ravel(header.get("NumFilesPerSnapshot", 1))[0])
+        if parts > 1:
+            frame.notes.append(f"this file is one of {parts} of its snapshot")
+        for name in dict.fromkeys(name for _, group in self.groups for name in group):
+            self.add_field(frame, name, counts)
+        return frame
+
+    def add_field(self, frame, name, counts):
+        """Types that lack a field have no number there."""
+        fields = [group.get(name) for _, group in self.groups]
+        first = next((one for one in fields if hasattr(one, "dtype")), None)
+        if name == "Coordinates" or first is None or first.dtype.kind not in "biuf":
+            return
+        shape, values = first.shape[1:], []
+        for field, count in zip(fields, counts):
+            is_there = hasattr(field, "dtype") and field.shape == (count, *shape)
+            values.append(field[()] if is_there else numpy.full((count, *shape), numpy.nan))
+        frame.add({"ParticleIDs": "id", "Masses": "mass"}.get(name, name), numpy.concatenate(values))
+
+
+class ByOpenPMD:
+    """All species of particles; steps are frames. Lengths in the unit of the positions."""
+
+    def __init__(self, file):
+        path = file.attrs.get("particlesPath", b"particles/")
+        self.path = (path.decode() if isinstance(path, bytes) else str(path)).strip("/")
+        steps = file["data"] if "data" in file else {}
+        self.steps = [steps[name] for name in sorted(steps, key=int) if self.path in steps[name]]
+        self.frames = len(self.steps)
+        if not self.steps:
+            raise Failure("it has no particles of openPMD")
+
+    def values(self, record, count):
+        """A component of a record: numbers, or one for all."""
+        return record[()] if hasattr(record, "dtype") else numpy.full(count, record.attrs["value"])
+
+    def places(self, group):
+        """Positions and the offsets of their cells, in the unit of the positions."""
+        position, offset = group["position"], group.get("positionOffset")
+        axes = [axis for axis in "xyz" if axis in position]
+        shape = position[axes[0]]
+        count = len(shape) if hasattr(shape, "dtype") else int(shape.attrs["shape"][0])
+        places = numpy.zeros((count, 3))
+        for axis in axes:
+            places[:, "xyz".index(axis)] = self.values(position[axis], count)
+            if offset is not None and axis in offset:
+                scale = offset[axis].attrs.get("unitSI", 1.0) / position[axis].attrs.get("unitSI", 1.0)
+                places[:, "xyz".index(axis)] += self.values(offset[axis], count) * scale
+        return places
+
+    def read(self, number):
+        step = self.steps[number]
+        groups = [(name, one) for name, one in step[self.path].items() if "position" in one]
+        places = [self.places(group) for _, group in groups]
+        frame = Frame(numpy.concatenate(places) if places else numpy.zeros((0, 3)))
+        counts = [len(one) for one in places]
+        index = numpy.repeat(numpy.arange(len(counts)), counts)
+        frame.species = ("species", ([name for name, _ in groups], index))
+        if "time" in step.attrs:
+            frame.time = float(step.attrs["time"]) * float(step.attrs.get("timeUnitSI", 1.0))
+        for name in dict.fromkeys(name for _, group in groups for name in group):
+            records = [group.get(name) for _, group in groups]
+            if not name.startswith(("position", "particlePatches")):
+                self.add_record(frame, name, records, counts)
+        return frame
+
+    def add_record(self, frame, name, records, counts):
+        """Species that lack it have no number there."""
+        parts = [one for one in records if one is not None]
+        axes = [axis for axis in "xyz" if any(axis in one for one in parts if hasattr(one, "keys"))]
+        for axis in axes or [""]:
+            ones = [one[axis] if axis and one is not None and axis in one else one for one in records]
+            frame.add(f"{name}_{axis}" if axis else name, numpy.concatenate([
+                numpy.full(count, numpy.nan) if one is None else self.values(one, count)
+                for one, count in zip(ones, counts)]))  # fmt: skip
+
+
+class ByH5MD:
+    """The first group of particles that has positions."""
+
+    def __init__(self, h5py, file):
+        self.h5py, self.file, self.note = h5py, file, None
         groups = [one for one in self.file.get("particles", {}).items() if "position" in one[1]]
         if not groups:
-            raise Failure("it lacks the groups of H5MD, particles/NAME/position")
+            raise Failure("it lacks the groups of H5MD (particles/NAME/position), GADGET and openPMD")
         self.group = groups[0][1]
         if len(groups) > 1:
             self.note = f"{groups[0][0]} is shown, the first of {len(groups)} groups of particles"
@@ -373,7 +485,7 @@ def by_vtk(vtk, path, form, _count):
     return ByPoints(vtk_to_numpy(points.GetData()), named)
 
 
-READERS = {"MDAnalysis": ByMDAnalysis, "ase": ByASE, "gsd": ByGSD, "h5py": ByH5py,
+READERS = {"MDAnalysis": ByMDAnalysis, "ase": ByASE, "gsd": ByGSD, "h5py": by_h5py,
            "meshio": by_meshio, "vtk": by_vtk}  # fmt: skip
 
 
@@ -441,6 +553,9 @@ def answer_of(frame):
         what = "species" if i < len(species) else "text"
         lines.append(f"{what} {len(texts)} {len(block)} {name}")
         blocks += [block, numpy.ascontiguousarray(index, dtype="<u4")]
+    if frame.bonds is not None and len(frame.bonds) > 0:
+        lines.append(f"bonds {len(frame.bonds)}")
+        blocks.append(numpy.ascontiguousarray(frame.bonds, dtype="<u4"))
     return lines, blocks
 
 

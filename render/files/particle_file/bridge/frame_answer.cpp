@@ -25,8 +25,8 @@ constexpr std::size_t most_lines = 1 << 14;
 
 /// A column that an answer announces.
 struct ColumnLine {
-  enum class Kind { number, text, species } kind = Kind::number;
-  std::uint64_t texts = 0, bytes = 0;  ///< of texts
+  enum class Kind { number, text, species, bonds } kind = Kind::number;
+  std::uint64_t texts = 0, bytes = 0;  ///< of texts; of bonds, which have 8 bytes each
   std::string name;
 };
 
@@ -89,12 +89,21 @@ bool read_column(std::string_view kind, std::string_view line, FrameLines& lines
   return true;
 }
 
+bool read_bonds(std::string_view line, FrameLines& lines) {
+  const auto count = count_in(line);
+  if (!count || *count > UINT64_MAX / 64) return false;
+  lines.columns.push_back(
+      {ColumnLine::Kind::bonds, *count, *count * 2 * sizeof(std::uint32_t), {}});
+  return true;
+}
+
 /// One line of an answer; false if it is none.
 bool read_fact(std::string_view line, FrameLines& lines, ParticleFrame& frame) {
   const std::string_view word = take_word(line);
   if (word == "number" || word == "text" || word == "species") {
     return read_column(word, line, lines);
   }
+  if (word == "bonds") return read_bonds(line, lines);
   if (word == "positions") return lines.has_positions = true;
   if (word == "cell") return read_cell(line, frame);
   if (word == "periodic") return read_periodic(line, frame);
@@ -121,6 +130,10 @@ Status check_promise(const FrameLines& lines) {
     return a > UINT64_MAX - b ? UINT64_MAX : a + b;
   };
   for (const ColumnLine& column : lines.columns) {
+    if (column.kind == ColumnLine::Kind::bonds) {
+      rest = add(rest, column.bytes * 2);
+      continue;
+    }
     each += column.kind == ColumnLine::Kind::number ? sizeof(double) : sizeof(std::uint32_t);
     rest = add(rest, column.bytes > UINT64_MAX / 64 ? UINT64_MAX : column.bytes * 64);
   }
@@ -143,8 +156,7 @@ class Blocks {
         return done;
     }
     for (const ColumnLine& column : lines_.columns) {
-      const bool is_number = column.kind == ColumnLine::Kind::number;
-      if (auto done = is_number ? read_numbers(column) : read_texts(column); !done) return done;
+      if (auto done = read_column_of(column); !done) return done;
     }
     return {};
   }
@@ -178,6 +190,28 @@ class Blocks {
   [[nodiscard]] bool is_free(const std::string& name) const {
     return !name.empty() && name != "x" && name != "y" && name != "z" &&
            find_number_column(frame_, name) == nullptr && find_text_column(frame_, name) == nullptr;
+  }
+
+  Status read_column_of(const ColumnLine& line) {
+    if (line.kind == ColumnLine::Kind::number) return read_numbers(line);
+    return line.kind == ColumnLine::Kind::bonds ? read_bonded(line) : read_texts(line);
+  }
+
+  /// They are all that there are.
+  Status read_bonded(const ColumnLine& line) {
+    std::vector<ParticleBond> bonds(static_cast<std::size_t>(line.texts));
+    static_assert(sizeof(ParticleBond) == 2 * sizeof(std::uint32_t));
+    if (auto done = process_.read(bonds.data(), bonds.size() * sizeof(ParticleBond)); !done)
+      return done;
+    const bool are_right = std::all_of(bonds.begin(), bonds.end(), [&](const ParticleBond& bond) {
+      return bond.a < count() && bond.b < count();
+    });
+    if (!are_right) return not_understood("bonds");
+    if (count() > options_.most_bonded) return {};
+    frame_.bonds = std::move(bonds);
+    frame_.lists_all_bonds = true;
+    put_in_order(frame_.bonds);
+    return {};
   }
 
   Status read_numbers(const ColumnLine& line) {

@@ -154,6 +154,7 @@ def with_mdanalysis(folder):
         mine = read(folder / name)
         assert len(mine) == (1 if name == "a.inpcrd" else 2), name
         for one in mine:
+            assert one["bonds"] == ([] if name == "a.inpcrd" else [[0, 1]]), name
             same(name, one, [[0.5, 0.25, 0.125], [1.5, 0, 0]], species=None if name == "a.inpcrd" else "CO")
         tried += 1
     psf = EXAMPLES / "PACKAGES/colvars/peptide.psf"
@@ -163,6 +164,7 @@ def with_mdanalysis(folder):
         mine = read(folder / "peptide.dcd", "", "", psf)[0]
         assert mine["texts"]["name"] == list(atoms.names), "names of the topology"
         assert mine["texts"]["resname"] == list(atoms.resnames)
+        assert mine["bonds"] == sorted(sorted(pair) for pair in atoms.bonds.indices.tolist())
         letters = {one for one in mine["species"] if one.isalpha()}  # some atoms are named 10
         assert letters <= {"C", "H", "N", "O", "S"}, letters
         code, text = run(psf)
@@ -185,6 +187,8 @@ def with_gsd(folder):
             one.particles.types = ["A", "big"]
             one.particles.typeid = np.arange(6 + step) % 2
             one.particles.diameter = RNG.random(6 + step) + 1
+            one.bonds.N = 2
+            one.bonds.group = [[0, 1], [3, 2]]
             one.configuration.box = [8, 9, 10, 0.25, 0.5, 0.125]
             file.append(one)
             steps.append(one.particles)
@@ -196,6 +200,7 @@ def with_gsd(folder):
         same("run.gsd", a, np.float32(b.position), cell, kinds, -cell.sum(axis=0) / 2)
         assert np.array_equal(numbers(a["numbers"]["diameter"], -1), np.float32(b.diameter))
         assert "charge" not in a["numbers"]
+        assert a["bonds"] == [[0, 1], [2, 3]]
     sample = Path(importlib.import_module("gsd").__file__).parent / "test/test_gsd_v1.gsd"
     if sample.exists():
         code, text = run(sample)  # a file of the first version, without particles of HOOMD
@@ -232,7 +237,55 @@ def with_h5py(folder):
         file.create_dataset("particles/all/position/value", (1, 10**12, 3), "f8", chunks=(1, 10**5, 3))
     code, text = run(folder / "vast.h5")
     assert code != 0 and "more memory than there is" in text, text
-    print("h5py: 3 files")
+    snapshot(h5py, folder)
+    openpmd(h5py, folder)
+    print("h5py: 5 files")
+
+
+def snapshot(h5py, folder):
+    """As GADGET and its family write it."""
+    gas, stars = RNG.normal(size=(5, 3)).astype("f4"), RNG.normal(size=(3, 3)).astype("f4")
+    with h5py.File(folder / "snap_012.hdf5", "w") as file:
+        header = file.create_group("Header").attrs
+        header["BoxSize"], header["Time"], header["NumFilesPerSnapshot"] = 25.0, 0.5, 2
+        file["PartType0/Coordinates"], file["PartType4/Coordinates"] = gas, stars
+        file["PartType0/SmoothingLength"] = np.arange(5.0)
+        file["PartType0/Velocities"], file["PartType4/Velocities"] = gas * 2, stars * 2
+        file["PartType0/ParticleIDs"], file["PartType4/ParticleIDs"] = np.arange(5), np.arange(5, 8)
+        file.create_group("PartType1")
+    one, = read(folder / "snap_012.hdf5")
+    both = np.vstack([gas, stars])
+    same("snap_012.hdf5", one, both, np.diag([25, 25, 25]), ["gas"] * 5 + ["stars"] * 3)
+    assert np.array_equal(numbers(one["numbers"]["vy"], -1), np.float64(both * 2)[:, 1])
+    assert numbers(one["numbers"]["id"], -1).tolist() == list(range(8))
+    lengths = numbers(one["numbers"]["SmoothingLength"], -1)
+    assert lengths[:5].tolist() == [0, 1, 2, 3, 4] and np.isnan(lengths[5:]).all()
+
+
+def openpmd(h5py, folder):
+    """Two steps of two species, of which one has fixed components and offsets."""
+    places = RNG.normal(size=(2, 4, 3))
+    with h5py.File(folder / "beam.h5", "w") as file:
+        file.attrs["openPMD"], file.attrs["particlesPath"] = "1.1.0", "particles/"
+        for step in range(2):
+            group = file.create_group(f"data/{step * 100}/particles")
+            group.parent.attrs["time"], group.parent.attrs["timeUnitSI"] = step * 1.5, 1.0
+            for k, axis in enumerate("xyz"):
+                group[f"e/position/{axis}"] = places[step, :, k]
+                group[f"e/position/{axis}"].attrs["unitSI"] = 1.0
+                group[f"e/momentum/{axis}"] = places[step, :, k] * 3
+                fixed = group.create_group(f"e/positionOffset/{axis}").attrs
+                fixed["value"], fixed["shape"], fixed["unitSI"] = 2.0 * k, [4], 0.5
+                fixed = group.create_group(f"H/position/{axis}").attrs
+                fixed["value"], fixed["shape"] = 7.0, [1]
+            group["e/weighting"] = np.arange(4.0)
+    mine = read(folder / "beam.h5")
+    assert len(mine) == 2
+    for i, one in enumerate(mine):
+        expected = np.vstack([[[7, 7, 7]], places[i] + [0, 1, 2]])
+        same("beam.h5", one, expected, species=["H"] + ["e"] * 4)
+        assert np.array_equal(numbers(one["numbers"]["momentum_z"], -1)[1:], places[i, :, 2] * 3)
+        assert numbers(one["numbers"]["weighting"], -1)[1:].tolist() == [0, 1, 2, 3]
 
 
 def with_meshio(folder):

@@ -3,8 +3,10 @@
 //   boule_print_particles FILE [FORMAT [COLUMN,... [TOPOLOGY]]]
 //
 // One JSON object for each frame, a line each. Numbers are hexadecimal and thereby exact.
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -56,7 +58,11 @@ void print_frame(const ParticleFrame& frame) {
     std::printf("%s\"%s\": ", i == 0 ? "" : ", ", frame.texts[i].name.c_str());
     print_texts(frame.texts[i]);
   }
-  std::printf("}}\n");
+  std::printf("}, \"bonds\": [");
+  for (std::size_t i = 0; i < frame.bonds.size(); ++i) {
+    std::printf("%s[%u, %u]", i == 0 ? "" : ", ", frame.bonds[i].a, frame.bonds[i].b);
+  }
+  std::printf("]}\n");
 }
 
 std::vector<std::string> split(const std::string& text) {
@@ -72,7 +78,7 @@ std::vector<std::string> split(const std::string& text) {
 }
 
 int run(int argc, char** argv) {
-  ParticleFileOptions options;
+  ParticleFileOptions options{.most_bonded = std::numeric_limits<std::uint64_t>::max()};
   if (argc > 2) options.format = argv[2];
   if (argc > 3 && *argv[3] != '\0') options.columns = split(argv[3]);
   if (argc > 4) options.topology = argv[4];
