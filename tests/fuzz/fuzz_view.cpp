@@ -5,9 +5,9 @@
 #include <string_view>
 #include <variant>
 
-#include "render/apps/view/access.h"
-#include "render/apps/view/client_message.h"
-#include "render/apps/view/frame_message.h"
+#include "render/apps/view/messages/client_message.h"
+#include "render/apps/view/messages/frame_message.h"
+#include "render/apps/view/server/access.h"
 #include "tests/fuzz/input_budget.h"
 #include "tests/fuzz/require.h"
 

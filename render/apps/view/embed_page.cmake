@@ -20,7 +20,7 @@ foreach(file IN LISTS FILES)
   string(APPEND rows "  {\"${name}\", \"${type}\", {file${number}, sizeof file${number} - 1}},\n")
   math(EXPR number "${number} + 1")
 endforeach()
-file(WRITE "${OUTPUT}" "#include \"render/apps/view/page_files.h\"
+file(WRITE "${OUTPUT}" "#include \"render/apps/view/server/page_files.h\"
 
 namespace boule::view {
 namespace {

@@ -9,9 +9,9 @@
 #include "render/apps/cli/process/messages.h"
 #include "render/apps/cli/process/reading_limit.h"
 #include "render/apps/job/scene_loader.h"
-#include "render/apps/view/access.h"
-#include "render/apps/view/view_session.h"
-#include "render/apps/view/web_server.h"
+#include "render/apps/view/server/access.h"
+#include "render/apps/view/server/web_server.h"
+#include "render/apps/view/session/view_session.h"
 #include "render/image/image_start.h"
 #include "render/renderer/renderer.h"
 

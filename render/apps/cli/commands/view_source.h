@@ -7,7 +7,7 @@
 
 #include "core/math/vec.h"
 #include "render/apps/job/scene_loader.h"
-#include "render/apps/view/scene_source.h"
+#include "render/apps/view/session/scene_source.h"
 #include "render/files/scene_file/loaded/particle_file_cache.h"
 #include "render/files/scene_file/scene_file.h"
 #include "render/frame/scheduler.h"

@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "render/apps/cli/options/options.h"
-#include "render/apps/view/view_settings.h"
+#include "render/apps/view/messages/view_settings.h"
 
 namespace boule::cli {
 

@@ -1,5 +1,5 @@
 // Who may talk to the server of boule view.
-#include "render/apps/view/access.h"
+#include "render/apps/view/server/access.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Cameras that clients change, and their texts.
-#include "render/apps/view/camera_edit.h"
+#include "render/apps/view/messages/camera_edit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Messages of clients: what is understood, and what is refused.
-#include "render/apps/view/client_message.h"
+#include "render/apps/view/messages/client_message.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // False colours of how far two panes are apart.
-#include "render/apps/view/difference.h"
+#include "render/apps/view/panes/difference.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What waits for a client: it is bounded, and the newest wins.
-#include "render/apps/view/outbox.h"
+#include "render/apps/view/session/outbox.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "render/apps/view/frame_message.h"
+#include "render/apps/view/messages/frame_message.h"
 
 namespace boule::test {
 

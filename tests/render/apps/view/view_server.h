@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "render/apps/view/scene_source.h"
-#include "render/apps/view/view_session.h"
-#include "render/apps/view/web_server.h"
+#include "render/apps/view/server/web_server.h"
+#include "render/apps/view/session/scene_source.h"
+#include "render/apps/view/session/view_session.h"
 #include "render/threads/threads.h"
 #include "tests/render/apps/view/view_client.h"
 

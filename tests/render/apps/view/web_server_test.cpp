@@ -1,5 +1,5 @@
 // The server of boule view as clients find it, good ones and bad ones.
-#include "render/apps/view/web_server.h"
+#include "render/apps/view/server/web_server.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

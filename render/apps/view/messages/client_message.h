@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "core/base/error.h"
+#include "render/apps/view/messages/camera_edit.h"
+#include "render/apps/view/messages/view_settings.h"
+
+/// What clients send (docs/view_protocol.md).
+namespace boule::view {
+
+/// The longest message, in bytes.
+inline constexpr std::size_t longest_message = 16384;
+
+struct CameraMessage {
+  std::uint32_t number = 0;
+  CameraEdit edit;
+  bool moving = false;
+};
+
+/// Any keys of a pane's settings.
+struct PaneEdit {
+  std::optional<PixelOrder> order;
+  std::optional<Solver> solver;
+  std::optional<Method> method;
+  std::optional<std::optional<float>> shadow_epsilon;
+};
+
+struct SettingsMessage {
+  std::uint32_t number = 0;
+  std::optional<std::vector<PaneEdit>> panes;  ///< one or two
+  std::optional<Difference> difference;
+  std::optional<std::array<int, 2>> size;
+  std::optional<int> spp, max_depth;
+  std::optional<float> exposure;
+  std::optional<double> pace;
+};
+
+struct ParticlesMessage {
+  std::uint32_t number = 0;
+  std::optional<std::string> color, map;
+  std::optional<std::optional<std::array<double, 2>>> range;
+};
+
+struct FrameMessage {
+  std::uint32_t number = 0;
+  int frame = 0;
+};
+
+struct PickMessage {
+  std::uint32_t id = 0;
+  int pane = 0, x = 0, y = 0;
+};
+
+struct SaveMessage {
+  std::uint32_t id = 0;
+  int pane = 0;
+  std::optional<int> spp;
+};
+
+struct StopSavingMessage {};
+
+struct TextsMessage {
+  std::uint32_t id = 0;
+  int pane = 0;
+};
+
+struct AckMessage {
+  std::uint32_t frame = 0;
+};
+
+using ClientMessage =
+    std::variant<CameraMessage, SettingsMessage, ParticlesMessage, FrameMessage, PickMessage,
+                 SaveMessage, StopSavingMessage, TextsMessage, AckMessage>;
+
+/// A message that was refused: its type and id as far as they were understood.
+struct RefusedMessage {
+  std::string type;
+  std::optional<std::uint32_t> id;
+  Diagnostic error;
+};
+
+/// Reads a message. Takes any bytes.
+std::variant<ClientMessage, RefusedMessage> read_message(std::string_view text);
+
+}  // namespace boule::view

@@ -1,0 +1,298 @@
+#include "render/apps/view/session/view_loop.h"
+
+#include <algorithm>
+#include <exception>
+#include <limits>
+#include <utility>
+
+#include "core/base/float_environment.h"
+#include "render/apps/view/panes/difference.h"
+#include "render/apps/view/session/state_text.h"
+
+namespace boule::view {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// How long the loop renders before it looks for news.
+constexpr double step_seconds = 0.025;
+/// A moving picture is to be rendered within this time; a step then lasts until it is whole.
+constexpr double moving_seconds = 0.035, longest_moving_step = 0.06;
+/// How often a picture at rest is shown as it grows.
+constexpr milliseconds time_between_frames{100}, time_between_reports{250};
+/// The PNG waits for this: nobody who is about to move the camera has to wait for it.
+constexpr milliseconds quiet_time{200};
+
+bool is_frameless(const ViewSettings& settings) {
+  return std::any_of(settings.panes.begin(), settings.panes.end(),
+                     [](const PaneSettings& pane) { return pane.order == PixelOrder::frameless; });
+}
+
+double seconds_of(Mailbox::Clock::duration time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+}  // namespace
+
+Status ViewLoop::open(LoadedScene loaded, Wish& first) {
+  const FloatEnvironment floats;
+  stage_.set_scene(std::move(loaded));
+  auto camera = stage_.scene_camera(first.settings.width, first.settings.height);
+  if (!camera) return camera.error();
+  first.camera = std::move(camera).value();
+  notes_ = stage_.loaded().notes;
+  figures_ = figures_of(stage_.loaded());
+  columns_ = parts_.source.columns();
+  parts_.mailbox.set_origin(stage_.loaded().origin);
+  wish_ = shown_wish_ = start_ = first;
+  must_begin_ = true;
+  return {};
+}
+
+void ViewLoop::run() {
+  const FloatEnvironment floats;
+  while (true) {
+    try {
+      const News news = parts_.mailbox.wait_until(next_time(), wish_);
+      if (news.stop) return;
+      handle(news);
+      if (!parts_.outbox.connected()) continue;
+      choose_stage();
+      if (late_pick_) pick(*std::exchange(late_pick_, std::nullopt));
+      render();
+      publish();
+      step_save();
+      report_statistics();
+    } catch (const std::exception& error) {
+      fail("scene", Diagnostic::of(error.what()));
+    }
+  }
+}
+
+/// When there is something to do even if nothing comes.
+ViewLoop::Clock::time_point ViewLoop::next_time() const {
+  const auto now = Clock::now();
+  if (!parts_.outbox.connected()) return now + std::chrono::hours(1);
+  if (must_begin_ && !failed_) return now;
+  if (is_rendering()) return wish_.settings.pace > 0 ? last_step_ + milliseconds(30) : now;
+  if (save_) return now;
+  auto next = now + std::chrono::hours(1);
+  if (!failed_ && stage_.shape().kind == StageKind::moving)
+    next = std::min(next, parts_.mailbox.moving_until());
+  if (finished_since_ && !finished_sent_) next = std::min(next, *finished_since_ + quiet_time);
+  if (dirty_) next = std::min(next, last_sent_ + time_between_frames);
+  return next;
+}
+
+bool ViewLoop::is_rendering() const { return !failed_ && stage_.started() && !stage_.done(); }
+
+void ViewLoop::handle(const News& news) {
+  if (news.scene) reload();
+  if (news.camera || news.settings || news.scene) must_begin_ = true;
+  if (must_begin_) failed_ = false;
+  if (news.connected || news.settings || news.scene || news.camera_type) send_state();
+  if (news.connected) {
+    dirty_ = true;
+    finished_sent_ = false;
+  }
+  answer(news);
+}
+
+void ViewLoop::answer(const News& news) {
+  if (news.pick) pick(*news.pick);
+  if (news.texts) send_texts(*news.texts);
+  if (news.save) save(*news.save);
+  if (news.stop_saving && save_) {
+    parts_.outbox.add_text(error_text("save", Diagnostic::of("stopped"), save_->id()));
+    save_.reset();
+  }
+}
+
+/// Reads the scene of the wish. If that fails, the wish is taken back.
+void ViewLoop::reload() {
+  parts_.outbox.add_text(busy_text("reading " + parts_.source.facts().path));
+  auto loaded = parts_.source.load(wish_.look, wish_.frame);
+  parts_.outbox.add_text(busy_text({}));
+  if (!loaded) {
+    wish_.look = shown_wish_.look;
+    wish_.frame = shown_wish_.frame;
+    parts_.mailbox.correct(wish_);
+    parts_.outbox.add_text(error_text("scene", loaded.error()));
+    return;
+  }
+  stage_.set_scene(std::move(loaded).value());
+  notes_ = stage_.loaded().notes;
+  figures_ = figures_of(stage_.loaded());
+  columns_ = parts_.source.columns();
+  parts_.mailbox.set_origin(stage_.loaded().origin);
+  shown_wish_ = wish_;
+}
+
+void ViewLoop::send_state() {
+  parts_.outbox.add_text(state_text(
+      {wish_, parts_.source.facts(), stage_.loaded(), columns_, notes_, figures_, start_}));
+}
+
+void ViewLoop::fail(const std::string& about, const Diagnostic& error) {
+  failed_ = true;
+  must_begin_ = false;
+  save_.reset();
+  parts_.outbox.add_text(error_text(about, error));
+}
+
+/// How coarse a moving picture must be. Order frameless need not be: it shows its pixels as they
+/// come; and at a pace the order is what somebody wants to see.
+int ViewLoop::moving_scale() const {
+  if (is_frameless(wish_.settings) || wish_.settings.pace > 0) return 1;
+  const double pixels = static_cast<double>(wish_.settings.width) * wish_.settings.height;
+  const double seconds = pixels * stage_.sample_seconds();
+  for (const int scale : {1, 2, 3, 4, 6, 8, 12}) {
+    if (seconds <= moving_seconds * scale * scale) return scale;
+  }
+  return 16;
+}
+
+StageShape ViewLoop::wanted_shape() const {
+  if (parts_.mailbox.is_moving(Clock::now())) return {StageKind::moving, moving_scale()};
+  const bool was_coarse = stage_.started() && stage_.shape().scale > 1;
+  const bool unknown = !stage_.started() || !(stage_.sample_seconds() > 0);
+  if ((was_coarse || unknown) && wish_.settings.spp > 1) return {StageKind::preview, 1};
+  return {StageKind::rest, 1};
+}
+
+/// Begins anew where the wish or the movement asks for it.
+void ViewLoop::choose_stage() {
+  if (failed_) return;
+  const StageKind kind = stage_.shape().kind;
+  const bool stopped = kind == StageKind::moving && !must_begin_ && stage_.started() &&
+                       !parts_.mailbox.is_moving(Clock::now());
+  const bool previewed = kind == StageKind::preview && !must_begin_ && stage_.done();
+  if (must_begin_ || stopped) {
+    begin();
+  } else if (previewed) {
+    if (auto done = stage_.begin(wish_, {StageKind::rest, 1}, parts_.mailbox.overtaken()); !done)
+      fail("settings", done.error());
+  }
+}
+
+void ViewLoop::begin() {
+  const StageShape shape = wanted_shape();
+  must_begin_ = false;
+  finished_since_.reset();
+  finished_sent_ = false;
+  pixels_due_ = 0;
+  if (auto done = stage_.begin(wish_, shape, parts_.mailbox.overtaken()); !done)
+    fail("settings", done.error());
+}
+
+/// How many pixels a step may render at a pace; none: wait.
+std::optional<double> ViewLoop::allowance() {
+  const auto now = Clock::now();
+  const double passed = std::min(seconds_of(now - last_step_), 0.1);
+  last_step_ = now;
+  if (!(wish_.settings.pace > 0)) return std::numeric_limits<double>::infinity();
+  pixels_due_ += wish_.settings.pace * passed;
+  constexpr double smallest_block = 64;
+  if (pixels_due_ < smallest_block) return std::nullopt;
+  return std::exchange(pixels_due_, 0);
+}
+
+void ViewLoop::render() {
+  if (!is_rendering()) return;
+  const auto pixels = allowance();
+  if (!pixels) return;
+  const bool moving = stage_.shape().kind == StageKind::moving;
+  // A moving picture that is coarse enough is made whole; another one is shown as it comes.
+  const bool whole = moving && wish_.settings.pace == 0 && !is_frameless(wish_.settings);
+  const double seconds = whole ? longest_moving_step : step_seconds;
+  if (const auto done = stage_.step({seconds, *pixels}); !done) {
+    if (!parts_.mailbox.overtaken()) return fail("scene", done.error());
+    must_begin_ = true;
+    return;
+  }
+  dirty_ = true;
+  if (stage_.done()) end_stage();
+}
+
+void ViewLoop::end_stage() {
+  if (stage_.shape().kind == StageKind::rest) finished_since_ = Clock::now();
+}
+
+FrameHeader ViewLoop::header(int pane) const {
+  FrameHeader header;
+  header.pane = pane;
+  header.moving = stage_.shape().kind == StageKind::moving;
+  header.scale = stage_.shape().scale;
+  header.number = wish_.number;
+  return header;
+}
+
+/// Sends what there is to see: the first picture of a new wish at once, others now and then.
+void ViewLoop::publish() {
+  if (!stage_.started() || failed_) return;
+  const auto now = Clock::now();
+  if (finished_since_ && !finished_sent_ && now >= *finished_since_ + quiet_time) {
+    finished_sent_ = true;
+    dirty_ = false;
+    for (std::size_t i = 0; i < stage_.size(); ++i) publish_pane(i, true);
+    publish_difference(true);
+    return;
+  }
+  if (!dirty_) return;
+  const bool moving = stage_.shape().kind == StageKind::moving;
+  const bool urgent = sent_number_ != wish_.number || moving || stage_.done();
+  if (!urgent && now < last_sent_ + time_between_frames) return;
+  if (parts_.outbox.holds_frame(0) && sent_number_ == wish_.number && !stage_.done()) return;
+  dirty_ = false;
+  last_sent_ = now;
+  sent_number_ = wish_.number;
+  for (std::size_t i = 0; i < stage_.size(); ++i) publish_pane(i, false);
+  publish_difference(false);
+}
+
+void ViewLoop::publish_pane(std::size_t index, bool finished) {
+  LivePane& pane = stage_.pane(index);
+  const LivePane::Progress now = pane.progress();
+  FrameHeader header = this->header(static_cast<int>(index));
+  header.passes = now.passes;
+  header.share = static_cast<float>(now.share);
+  const Image image = pane.picture();
+  header.spp = static_cast<float>(static_cast<double>(now.samples) /
+                                  static_cast<double>(image.pixels.size()));
+  const float stops = wish_.settings.exposure;
+  if (!finished || !sender_.send_finished(image, header, stops)) sender_.send(image, header, stops);
+}
+
+void ViewLoop::publish_difference(bool finished) {
+  const Difference kind = wish_.settings.difference;
+  difference_.reset();
+  if (kind == Difference::none || stage_.size() < 2) return;
+  const auto make = [&]() -> Result<DifferencePicture> {
+    LivePane &a = stage_.pane(0), &b = stage_.pane(1);
+    if (kind == Difference::color)
+      return color_difference(a.picture(), b.picture(), wish_.settings.exposure);
+    const auto left = a.hits(), right = b.hits();
+    if (!left) return left.error();
+    if (!right) return right.error();
+    return t_difference(left.value(), right.value(), a.options().width, a.options().height);
+  };
+  const auto made = make();
+  if (!made) return;
+  const Image& image = made.value().image;
+  report_due_ = finished;
+  difference_ = DifferenceFigures{made.value().pixels, made.value().largest};
+  const FrameHeader header = this->header(difference_pane);
+  if (!finished || !sender_.send_finished(image, header, 0)) sender_.send(image, header, 0);
+}
+
+void ViewLoop::report_statistics() {
+  const auto now = Clock::now();
+  if (!stage_.started() || failed_) return;
+  const bool last = (stage_.done() && last_report_ < last_step_) || report_due_;
+  if (!last && (!is_rendering() || now < last_report_ + time_between_reports)) return;
+  last_report_ = now;
+  report_due_ = false;
+  parts_.outbox.report("statistics", statistics_text(wish_.number, stage_, difference_));
+}
+
+}  // namespace boule::view
