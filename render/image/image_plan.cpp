@@ -23,18 +23,6 @@ bool ask_to_stop(const void* context) {
   }
 }
 
-const char* compression_name(Compression compression) {
-  switch (compression) {
-    case Compression::none:
-      return "none";
-    case Compression::rle:
-      return "rle";
-    case Compression::zip:
-      break;
-  }
-  return "zip";
-}
-
 /// What is wrong with the extra channels, or an empty text.
 std::string channel_problem(const ImageForm& form) {
   std::set<std::string> names = {"R", "G", "B"};
@@ -107,7 +95,7 @@ Metadata header_of(const ImageFileOptions& options, const ImageFormat& format) {
   // Straight colours stay as they are.
   if (format.alpha && !format.hdr) header.emplace_back("oiio:UnassociatedAlpha", 1);
   if (writer == "openexr") {
-    header.emplace_back("compression", compression_name(options.compression));
+    header.emplace_back("compression", std::string(name_of(options.compression)));
   } else if (writer == "jpeg" || writer == "webp") {
     header.emplace_back("CompressionQuality", 95);
     header.emplace_back("jpeg:subsampling", "4:4:4");

@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "core/base/error.h"
+#include "core/scene/names.h"
 #include "render/image/image.h"
 #include "render/image/image_format.h"
 
@@ -16,6 +18,8 @@ namespace boule {
 
 /// The compression of an EXR file: none takes the least time, zip the least space.
 enum class Compression { none, rle, zip };
+template <>
+inline constexpr std::array<std::string_view, 3> names<Compression>{"none", "rle", "zip"};
 
 /// 16 floats in the order of OpenEXR's M44f: element (row, column) is at [4 * row + column].
 using MetadataMatrix = std::array<float, 16>;

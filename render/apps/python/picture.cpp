@@ -23,7 +23,6 @@ namespace py = pybind11;
 namespace boule::python {
 namespace {
 
-constexpr std::array<std::string_view, 3> compression_names{"none", "rle", "zip"};
 constexpr auto number_size = static_cast<py::ssize_t>(sizeof(float));
 
 std::vector<py::ssize_t> sides_of(const Image& image) { return {image.height, image.width}; }
@@ -106,7 +105,7 @@ void save(const Picture& picture, const py::object& name, float exposure,
   const auto path =
       py::cast<std::string>(py::module_::import("boule._objects").attr("path_of")(name, "path"));
   ImageFileOptions options = file_options(*picture.parts, exposure);
-  options.compression = choose<Compression>(compression, "compression", compression_names);
+  options.compression = choose<Compression>(compression, "compression");
   options.date_time = take(source_date());
   const ImageFormat* const format = find_image_format(path);
   const bool has_channels = format != nullptr && format->channels;

@@ -89,9 +89,7 @@ void add_work_options(CLI::App& app, RenderCommand& command) {
 }
 
 void add_compression(CLI::App& app, Compression& compression) {
-  add_choice(app, "--compression", compression,
-             std::array{Named{"none", Compression::none}, Named{"rle", Compression::rle},
-                        Named{"zip", Compression::zip}},
+  add_choice(app, "--compression", compression, choices<Compression>(),
              "Packing of EXR pictures (zip)");
 }
 

@@ -54,9 +54,7 @@ void add_merge(CLI::App& app, MergeCommand& command) {
       app, "--exposure", command.exposure_stops,
       [](const std::string& text) { return parse_number(text, -100.0F, 100.0F); },
       "a number from -100 to 100", "STOPS", "Brighten 8-bit pictures by 2^STOPS (0)");
-  add_choice(app, "--compression", command.compression,
-             std::array{Named{"none", Compression::none}, Named{"rle", Compression::rle},
-                        Named{"zip", Compression::zip}},
+  add_choice(app, "--compression", command.compression, choices<Compression>(),
              "Packing of EXR pictures (zip)");
   app.add_flag("-q,--quiet", command.quiet, "Only errors");
   start_group(app, "Machine");
