@@ -155,6 +155,16 @@ Status reframe(PreparedScene& scene, const Camera& camera, int width, int height
   return {};
 }
 
+Status settle_camera(Scene& scene, int width, int height, const ParallelFor& parallel_for) {
+  const FloatEnvironment floats;
+  if (auto done = check_size(width, height); !done) return done;
+  if (auto done = validate_in_parallel(scene, parallel_for); !done) return done;
+  if (scene.camera) return {};
+  share_or_expand(scene);
+  std::vector<std::string> notes;
+  return add_camera(scene, width, height, parallel_for, notes);
+}
+
 Result<PreparedScene> prepare(Scene scene, int width, int height, const ParallelFor& parallel_for,
                               Method method) {
   const FloatEnvironment floats;

@@ -96,6 +96,11 @@ Result<PreparedScene> prepare(Scene scene, int width, int height,
                               const ParallelFor& parallel_for = serial_for,
                               Method method = Method::whitted);
 
+/// Gives a scene without a camera the one that prepare() gives it. Arguments and errors are those
+/// of prepare(). Instances may become primitives.
+Status settle_camera(Scene& scene, int width, int height,
+                     const ParallelFor& parallel_for = serial_for);
+
 /// Gives a prepared scene another camera, for a picture of this size. All data that depend on them
 /// are recomputed, so the scene equals one that was prepared with that camera. `notes` stay. Errors
 /// are as for prepare(), and then the scene is unchanged. Throws std::bad_alloc. Precondition: no

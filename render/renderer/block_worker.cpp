@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-#include "core/optics/cameras.h"
 #include "render/renderer/live_rays.h"
 
 namespace boule {
@@ -29,6 +28,7 @@ void add(EdgeBlock& edges, const SampleId& id, const Color& sample, std::uint8_t
 BlockWorker::BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> integrator)
     : setup_(setup),
       integrator_(std::move(integrator)),
+      found_(setup.scene.camera_view, setup.kernels, setup.sampler, setup.stream_size),
       radiance_(setup.stream_size),
       covered_(setup.alpha == Alpha::none ? 0 : setup.stream_size) {
   pixels_.reserve(setup.stream_size);
@@ -112,51 +112,16 @@ bool BlockWorker::measure_part(const PixelRect& rect, Part& part, MeasuredPictur
 /// Traces the collected samples and adds them to the film, or to the measurement of noise.
 template <class Target>
 bool BlockWorker::trace(Target& target) {
-  const std::size_t count = pixels_.size();
-  if (count == 0) return true;
-  position_samples();
-  const CameraView& camera = setup_.scene.camera_view;
-  rays_.resize(count, common_part(camera.kind));
-  setup_.kernels.primary_rays(camera, samples_.view(), rays_.view());
-  if (!(camera.weighs ? trace_weighted(target) : trace_all(target))) return false;
+  if (pixels_.empty()) return true;
+  found_.find(pixels_);
+  if (!(setup_.scene.camera_view.weighs ? trace_weighted(target) : trace_all(target))) return false;
   pixels_.clear();
   return true;
 }
 
-/// Finds the positions of the collected samples on the film and on the lens.
-void BlockWorker::position_samples() {
-  const Sampler& sampler = setup_.sampler;
-  const CameraView& camera = setup_.scene.camera_view;
-  samples_.resize(setup_.stream_size, camera);
-  samples_.resize(pixels_.size());
-  const bool centered = sampler.single() || pixels_[0].sample == EdgeBlock::center;
-  if (!centered) find_numbers(RandomSet::film);
-  for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    const SampleId& id = pixels_[k];
-    const RasterPoint point =
-        centered ? RasterPoint{NoiseBlock::column(id.x) + 0.5, id.y + 0.5}
-                 : sampler.position(NoiseBlock::column(id.x), id.y, numbers_.get(k));
-    samples_.set(k, point.x, point.y);
-  }
-  if (!has_lens(camera.kind)) return;
-  if (!sampler.single()) find_numbers(RandomSet::lens);
-  for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    const UnitPair on_lens = sampler.single() ? UnitPair{0.5, 0.5} : numbers_.get(k);
-    samples_.set_lens(k, on_lens.u, on_lens.v);
-  }
-}
-
-void BlockWorker::find_numbers(RandomSet set) {
-  numbers_.resize(setup_.stream_size);
-  for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    const auto& [x, y, sample] = pixels_[k];
-    numbers_.ask(k, setup_.sampler.key(x, y), set, static_cast<std::uint32_t>(sample));
-  }
-  numbers_.find(setup_.kernels, pixels_.size());
-}
-
 CameraRays BlockWorker::camera_rays(const SampleId* samples) {
-  return {rays_, setup_.scene.coherence, samples, covered_.empty() ? nullptr : covered_.data()};
+  return {found_.rays(), setup_.scene.coherence, samples,
+          covered_.empty() ? nullptr : covered_.data()};
 }
 
 template <class Target>
@@ -171,15 +136,16 @@ bool BlockWorker::trace_all(Target& target) {
 /// Traces the samples that have a ray. A sample without a ray counts as black and uncovered.
 template <class Target>
 bool BlockWorker::trace_weighted(Target& target) {
-  keep_live_rays(samples_, rays_);
+  const SampleBuffer& samples = found_.samples();
+  keep_live_rays(samples, found_.rays());
   live_.clear();
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    if (samples_.weight(k) != 0) live_.push_back(pixels_[k]);
+    if (samples.weight(k) != 0) live_.push_back(pixels_[k]);
   }
   if (!integrator_->trace(camera_rays(live_.data()), radiance_.data())) return false;
   std::size_t ray = 0;
   for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    const float weight = samples_.weight(k);
+    const float weight = samples.weight(k);
     if (weight == 0) {
       add(target, pixels_[k], Color{}, 0);
     } else {

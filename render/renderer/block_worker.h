@@ -11,13 +11,12 @@
 #include "render/frame/progress.h"
 #include "render/frame/sampler.h"
 #include "render/integrators/integrator.h"
-#include "render/integrators/random_numbers.h"
 #include "render/prepare/prepared_scene.h"
 #include "render/renderer/edge_block.h"
 #include "render/renderer/noise_block.h"
+#include "render/renderer/sample_rays.h"
 #include "render/renderer/small_spheres.h"
 #include "simd/abi/kernel_table.h"
-#include "simd/stream/stream_buffer.h"
 
 namespace boule {
 
@@ -71,8 +70,6 @@ class BlockWorker {
  private:
   template <class Wanted>
   bool render_wanted(const PixelRect& block, int until, Film& film, const Wanted& wanted);
-  void position_samples();
-  void find_numbers(RandomSet set);
   template <class Part>
   bool measure_parts(const PixelRect& block, Part& part, MeasuredPicture& picture);
   template <class Part>
@@ -92,9 +89,7 @@ class BlockWorker {
   std::unique_ptr<Integrator> integrator_;
   std::vector<SampleId> pixels_;  ///< whose samples the stream holds
   std::vector<SampleId> live_;    ///< the samples with a ray, if the camera weighs samples
-  RandomNumbers numbers_;
-  SampleBuffer samples_;
-  RayBuffer rays_;
+  SampleRays found_;              ///< of these samples
   std::vector<Color> radiance_;
   std::vector<std::uint8_t> covered_;  ///< by ray; empty without alpha
   SampleFaults weighing_;              ///< of samples that were finite before their weighting

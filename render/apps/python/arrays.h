@@ -80,6 +80,17 @@ pybind11::array_t<Number> empty_array(std::vector<pybind11::ssize_t> shape) {
   return pybind11::array_t<Number>(std::move(shape));
 }
 
+/// A writable array over memory that `owner` has. `Shown` is the type that Python sees.
+template <class Shown, class Owner>
+pybind11::array array_in(Shown* data, std::vector<pybind11::ssize_t> shape,
+                         const std::shared_ptr<Owner>& owner) {
+  need_numpy();
+  const pybind11::capsule kept(new std::shared_ptr<Owner>(owner), [](void* pointer) {
+    delete static_cast<std::shared_ptr<Owner>*>(pointer);
+  });
+  return pybind11::array(pybind11::dtype::of<Shown>(), std::move(shape), {}, data, kept);
+}
+
 /// A read-only array over memory that `owner` keeps.
 template <class Number>
 pybind11::array view_of(const Number* data, std::vector<pybind11::ssize_t> shape,

@@ -7,6 +7,7 @@
 #include "core/base/version.h"
 #include "render/apps/job/option_values.h"
 #include "render/apps/python/call.h"
+#include "render/apps/python/camera_rays.h"
 #include "render/apps/python/capsule_arrays.h"
 #include "render/apps/python/data.h"
 #include "render/apps/python/errors.h"
@@ -44,6 +45,7 @@ PYBIND11_MODULE(_core, module) {
   bind_sphere_arrays(module);
   bind_capsule_arrays(module);
   bind_tracing(module);
+  bind_camera_rays(module);
   bind_picture(module);
   bind_rendering(module);
   bind_ends_of_calls(module);

@@ -201,11 +201,9 @@ auto lists(const TracerHandle& tracer, const py::dict& given, const Query& query
 /// A vector's values as an array, which keeps all of `lists`.
 template <class Shown, class Lists, class Number>
 py::array column_of(const std::shared_ptr<Lists>& lists, std::vector<Number>& column) {
-  need_numpy();
-  const py::capsule owner(new std::shared_ptr<Lists>(lists),
-                          [](void* kept) { delete static_cast<std::shared_ptr<Lists>*>(kept); });
-  return py::array(py::dtype::of<Shown>(), {static_cast<py::ssize_t>(column.size())}, {},
-                   column.data(), owner);
+  static_assert(sizeof(Shown) == sizeof(Number));
+  return array_in(reinterpret_cast<Shown*>(column.data()),
+                  {static_cast<py::ssize_t>(column.size())}, lists);
 }
 
 py::tuple all_hits(const TracerHandle& tracer, const py::dict& given,

@@ -13,6 +13,7 @@ You may call all functions from any thread; they give way to other threads of Py
 Ctrl-C ends every call within a tenth of a second.
 """
 
+from ._camera import Rays
 from ._core import Error as Error
 from ._core import Picture as Picture
 from ._core import isa as isa
@@ -81,6 +82,7 @@ __all__ = [
     "Plane",
     "Plastic",
     "PointLight",
+    "Rays",
     "RenderSettings",
     "Scene",
     "Sphere",

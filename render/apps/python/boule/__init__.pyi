@@ -658,6 +658,24 @@ class Scene(_Objects):
         origin: str | _Vector = ...,
     ) -> None: ...
     def add_group(self, name: str) -> Group: ...
+    def rays(
+        self,
+        size: str | Sequence[int] | None = ...,
+        spp: int = ...,
+        sample: int = ...,
+        *,
+        filter: _Filter | None = ...,
+        seed: int | None = ...,
+        crop: str | Sequence[int] | None = ...,
+        frame: int | None = ...,
+    ) -> Rays: ...
+    def fitted_camera(
+        self, size: str | Sequence[int] | None = ...
+    ) -> Pinhole | Orthographic: ...
+
+class Rays(NamedTuple):
+    origin: NDArray[np.float64]
+    direction: NDArray[np.float32]
 
 class Hits(NamedTuple):
     t: NDArray[np.float64]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from . import _camera, _core
 from . import _checks as checks
-from . import _core
 from ._objects import (
     Capsule,
     ConstantBackground,
@@ -390,6 +390,35 @@ class Scene(_Objects):
             raise error("group", f"there is a group {name!r} already")
         self.groups[name] = Group(name)
         return self.groups[name]
+
+    def rays(
+        self, size=None, spp=1, sample=0, *, filter=None, seed=None, crop=None, frame=None
+    ):
+        """The camera's rays, as render() traces them for one sample of each pixel, to the bit.
+
+        size: (width, height) in pixels; None: that of image. spp: samples per pixel; sample: which
+        of them, 0 to spp - 1. A single sample goes through the pixel's centre and that of the lens.
+        filter, seed, crop: those of render(); with a crop, rays are of its pixels only. frame: that
+        of a camera that moves.
+
+        Returns Rays, H x W x 3 each, with row 0 on top. Where the scene has an origin, it is added.
+        """
+        options = {
+            "size": size, "spp": spp, "sample": sample, "filter": filter, "seed": seed,
+            "crop": crop,
+        }  # fmt: skip
+        return _camera.rays_of(self._tree(), frame, options)
+
+    def fitted_camera(self, size=None):
+        """The camera that is fitted to the spheres and capsules, as numbers: a Pinhole or an
+        Orthographic. As Scene.camera it gives the same picture of this size.
+
+        size: (width, height) in pixels; None: that of image. If Scene.camera is a Fit, its keys
+        hold, otherwise those of Fit().
+        """
+        tree = self._tree()
+        tree.pop("camera", None)
+        return _camera.fitted_camera(tree, self.camera, size)
 
     def _tree(self):
         """The scene as its file would have it."""
