@@ -1,6 +1,8 @@
 // Throughput of the parts of a trace: rays per second of the camera and of nearest hits by each way
 // of finding them, spheres per second of the build. Names: what/isa/solver/scene/n,
-// camera/isa, build/scene/n.
+// camera/isa, build/scene/n, refit/scene/n, moved/how/share: rays through 100,000 spheres that have
+// moved by this share of their distance, in a tree that was refitted or in a new one; `cost` is
+// tree_cost() in that before.
 //
 //   bench_trace [--benchmark_filter='bundle/avx2/robust/u/100000']
 //
@@ -10,9 +12,12 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "bench/bench_scenes.h"
 #include "bench/camera_rays.h"
@@ -94,6 +99,39 @@ void run_build(benchmark::State& state, const std::string& name) {
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scene.spheres.size()));
 }
 
+/// The spheres of a scene uN, each moved along every axis by up to this share of their distance.
+std::vector<Sphere> moved(std::vector<Sphere> spheres, double share) {
+  const double step = share / std::cbrt(static_cast<double>(spheres.size()));
+  std::mt19937 random(1);
+  const auto draw = [&] { return static_cast<float>(step * (random() * 0x1p-31 - 1)); };
+  for (Sphere& sphere : spheres) {
+    for (float* const x : {&sphere.center.x, &sphere.center.y, &sphere.center.z}) *x += draw();
+  }
+  return spheres;
+}
+
+void run_refit(benchmark::State& state, const std::string& name) {
+  const BenchScene scene = make_scene(name).value();
+  const std::vector<Sphere> places[] = {moved(scene.spheres, 0.1), scene.spheres};
+  Geometry geometry(scene.spheres, {});
+  std::size_t next = 0;
+  for (auto _ : state) benchmark::DoNotOptimize(geometry.refit(places[next ^= 1]));
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(scene.spheres.size()));
+}
+
+void run_moved(benchmark::State& state, double share, bool refits) {
+  Trace trace(make_scene("u100000").value(), Structure::bvh);
+  const double before = trace.geometry.cost();
+  const std::vector<Sphere> spheres = moved(trace.scene.spheres, share);
+  if (refits) {
+    trace.geometry.refit(spheres);
+  } else {
+    trace.geometry = Geometry(spheres, {}, Structure::bvh);
+  }
+  state.counters["cost"] = trace.geometry.cost() / before;
+  run_trace(state, trace, *select_kernels("auto").value(), {});
+}
+
 void add(const std::string& name, auto run) {
   benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond);
 }
@@ -144,6 +182,13 @@ int main(int argc, char** argv) {
   }
   for (const std::string n : {"1000", "100000", "1000000"}) {
     add("build/u/" + n, [n](auto& state) { run_build(state, "u" + n); });
+  }
+  add("refit/u/1000000", [](auto& state) { run_refit(state, "u1000000"); });
+  for (const char* share : {"0.1", "0.3", "0.5", "1", "2"}) {
+    for (const bool refits : {true, false}) {
+      add(std::string(refits ? "moved/refit/" : "moved/new/") + share,
+          [=](auto& state) { run_moved(state, std::stod(share), refits); });
+    }
   }
   add("build/flake/6", [](auto& state) { run_build(state, "flake6"); });
   benchmark::RunSpecifiedBenchmarks();

@@ -46,6 +46,9 @@ bool enters(const Sphere& sphere, const Ray& ray, double t) {
 bool enters(const TraceTarget& target, const Ray& ray, const Hit& hit) {
   const Geometry& geometry = target.geometry;
   const bool leaves = hit.id == ray.source;
+  const bool is_sphere = static_cast<std::uint32_t>(hit.id) < geometry.sphere_count();
+  if (is_sphere && !leaves && target.solver != Solver::fast)
+    return enters(geometry.sphere(hit.slot), ray, hit.t);
   if (geometry.is_plane(hit))
     return is_nearer_to_enter(hit.t, reference::find_chord(ray, geometry.plane(hit.id), leaves));
   if (geometry.is_capsule(hit)) {
@@ -80,12 +83,15 @@ void TraceWorker::start(std::size_t count) {
 void TraceWorker::set(std::size_t k, const Ray& ray) {
   rays_.set(k, ray);
   ends_[k] = {ray.tmin, ray.tmax};
-  if (!is_float(ray.tmin) || !is_float(ray.tmax)) rounded_.push_back(k);
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  const bool is_usual = ray.tmin == 0 && ray.tmax == inf;  // tells most rays at once
+  if (!is_usual && !(is_float(ray.tmin) && is_float(ray.tmax))) rounded_.push_back(k);
 }
 
 void TraceWorker::meet_closest(const TraceTarget& target) {
   hits_.resize(size());
-  const Query query{.solver = target.solver, .experience = &closest_};
+  Query query{.solver = target.solver, .experience = &closest_};
+  if (size() == 1) query.form = Form::single;
   target.kernels.closest_hit(target.geometry.view(), rays_.view(), query, hits_.view());
   settle_ends(target);
 }

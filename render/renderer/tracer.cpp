@@ -24,11 +24,14 @@ Status wrong_room(std::size_t rays, std::size_t results) {
 
 }  // namespace
 
+Diagnostic Tracer::moved_away() { return Diagnostic::of("the tracer was moved away"); }
+
 Tracer::Tracer(Scene scene, const std::optional<std::vector<ShownGroup>>& groups,
                const TraceOptions& options, const KernelTable& kernels)
     : options_(options),
       kernels_(&kernels),
       geometry_(geometry_of(scene, groups, Scheduler(options.threads).parallel_for())),
+      built_cost_(geometry_.cost()),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
 
@@ -76,6 +79,21 @@ Status Tracer::closest(std::span<const Ray> rays, std::span<TracedHit> hits) {
                         [&](std::size_t k, const TracedHit& hit) { hits[first + k] = hit; });
   };
   return run(rays, hits.size(), std::cref(body));
+}
+
+Result<TracedHit> Tracer::closest(const Ray& ray) {
+  if (workers_.empty()) return moved_away();
+  const BriefFloatEnvironment environment;
+  try {
+    TraceWorker& mine = worker(0);
+    mine.load(1, [&](std::size_t) { return ray; });
+    TracedHit found;
+    mine.find_closest(target(), [&](std::size_t, const TracedHit& hit) { found = hit; });
+    ++rays_;
+    return found;
+  } catch (const std::bad_alloc&) {
+    return Diagnostic::out_of_memory("out of memory for a ray");
+  }
 }
 
 Status Tracer::any(std::span<const Ray> rays, std::span<std::uint8_t> met) {
@@ -127,7 +145,7 @@ Status Tracer::check_sources(const RayView& rays) const {
 }
 
 Status Tracer::run(const RayView& rays, std::size_t results, const Body& body) {
-  if (workers_.empty()) return Diagnostic::of("the tracer was moved away");
+  if (workers_.empty()) return moved_away();
   if (auto done = wrong_room(rays.size(), results); !done) return done;
   if (auto done = check_sources(rays); !done) return done;
   const FloatEnvironment environment;

@@ -65,6 +65,9 @@ class Tracer {
   /// AOV `normal`. An error if the numbers of rays and hits differ, if there is too little memory,
   /// or after a cancellation; then some hits may be unset.
   Status closest(std::span<const Ray> rays, std::span<TracedHit> hits);
+  /// The same for one ray, on the caller's thread: for rays that depend on one another. Does
+  /// neither ask `cancel` nor report progress, and its time does not count in statistics().
+  Result<TracedHit> closest(const Ray& ray);
 
   /// Sets met[k] to 1 if rays[k] hits a primitive with tmin < t <= tmax, otherwise to 0. It agrees
   /// with closest() and takes less time. Errors are as for closest().
@@ -94,6 +97,17 @@ class Tracer {
   /// above 0.
   Result<SphereChords> chords(const RayView& rays);
 
+  /// Moves the spheres: that with the id k becomes spheres[k], except for its material. All answers
+  /// are then those of a new tracer, to the bit. This takes less time than a new one: the tree
+  /// stays while it is good (tuning::worn_tree). An error, with the tracer unchanged, if there are
+  /// not as many spheres, if one is invalid, if they are those of a packed scene or of instances
+  /// that share their group, or if there is too little memory. Planes and capsules stay.
+  Status update(std::span<const Sphere> spheres);
+
+  /// The spheres by id; none of a packed scene, or of instances that share their group. Their
+  /// materials mean nothing. Throws std::bad_alloc.
+  [[nodiscard]] std::vector<Sphere> spheres() const;
+
   /// The number of ids: of spheres, planes and capsules.
   [[nodiscard]] std::size_t primitives() const;
   [[nodiscard]] TraceStatistics statistics() const;
@@ -106,6 +120,7 @@ class Tracer {
   static Result<Tracer> create_from(AnyScene&& scene, const TraceOptions& options);
   Tracer(Scene scene, const std::optional<std::vector<ShownGroup>>& groups,
          const TraceOptions& options, const KernelTable& kernels);
+  static Diagnostic moved_away();
   [[nodiscard]] TraceTarget target() const;
   Status find_any(const RayView& rays, std::span<std::uint8_t> met);
   [[nodiscard]] Status check_sources(const RayView& rays) const;
@@ -123,6 +138,7 @@ class Tracer {
   TraceOptions options_;
   const KernelTable* kernels_;
   Geometry geometry_;
+  double built_cost_ = 0;  ///< of its tree when it was built
   Scheduler scheduler_;
   std::vector<std::unique_ptr<TraceWorker>> workers_;
   std::uint64_t rays_ = 0;

@@ -9,6 +9,7 @@
 #include "core/math/ray.h"
 #include "simd/abi/filter_bounds.h"
 #include "simd/geometry/build_box.h"
+#include "simd/geometry/refit.h"
 #include "simd/geometry/tuning.h"
 
 namespace boule {
@@ -131,6 +132,39 @@ void Geometry::add_capsules(const std::vector<Capsule>& capsules, const Parallel
   const auto first = static_cast<std::uint32_t>(sphere_count_ + plane_count_);
   capsules_ =
       std::make_shared<const CapsuleTree>(capsules, static_cast<std::int32_t>(first), parallel_for);
+}
+
+bool Geometry::refit(std::span<const Sphere> spheres, const ParallelFor& parallel_for) {
+  if (!owns_spheres() || bvh_.nodes.empty() || !boule::refit(bvh_, spheres, parallel_for))
+    return false;
+  extent_ = extent_of(bvh_.nodes);
+  for (std::size_t slot = 0; slot < bvh_.scanned; ++slot) {
+    if (bvh_.slots[slot] >= 0) set_scanned(slot);
+  }
+  return true;
+}
+
+Geometry Geometry::with_spheres(std::vector<Sphere> spheres,
+                                const ParallelFor& parallel_for) const {
+  std::vector<Plane> planes;
+  for (std::size_t i = 0; i < plane_count_; ++i)
+    planes.push_back(plane(static_cast<std::int32_t>(sphere_count_ + i)));
+  Geometry made(std::move(spheres), planes, Structure::automatic, parallel_for);
+  made.capsules_ = capsules_;
+  return made;
+}
+
+double Geometry::cost() const { return tree_cost(bvh_); }
+
+std::vector<Sphere> Geometry::spheres() const {
+  std::vector<Sphere> spheres(sphere_count_);
+  for (std::size_t slot = 0; slot < bvh_.slots.size(); ++slot) {
+    const std::int32_t id = bvh_.slots[slot];
+    if (id >= 0) spheres[static_cast<std::size_t>(id)] = sphere(static_cast<std::uint32_t>(slot));
+  }
+  for (const SphereCopy& copy : bvh_.copies)
+    spheres[static_cast<std::size_t>(copy.id)] = spheres[static_cast<std::size_t>(copy.first)];
+  return spheres;
 }
 
 Sphere Geometry::sphere(std::uint32_t slot) const {

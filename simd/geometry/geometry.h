@@ -22,10 +22,10 @@ namespace boule {
 enum class Structure { automatic, scan, bvh };
 
 /// Spheres, planes and capsules laid out for the kernels, with the numbers of the conservative
-/// reject. Immutable once built. Takes any floats: rays miss a primitive that has NaN, infinity or
-/// no normal, and a negative radius counts by its absolute value. Precondition: at most
-/// max_primitives spheres and planes in all, which validate() checks. Throws std::bad_alloc, and
-/// the exceptions of `parallel_for`.
+/// reject. Immutable once built, but for refit(). Takes any floats: rays miss a primitive that has
+/// NaN, infinity or no normal, and a negative radius counts by its absolute value. Precondition: at
+/// most max_primitives spheres and planes in all, which validate() checks. Throws std::bad_alloc,
+/// and the exceptions of `parallel_for`.
 class Geometry {
  public:
   Geometry(const std::vector<Sphere>& spheres, const std::vector<Plane>& planes,
@@ -49,6 +49,22 @@ class Geometry {
   /// most max_primitives in all. Throws std::bad_alloc, and the exceptions of `parallel_for`.
   void add_capsules(const std::vector<Capsule>& capsules,
                     const ParallelFor& parallel_for = serial_for);
+
+  /// Moves the spheres in place: that with the id k becomes spheres[k], except for its material.
+  /// Every hit is then that of a new geometry, but rays may take longer. Returns false, with the
+  /// geometry unchanged, if it takes a new one: if it has no tree, or if its tree is borrowed, in
+  /// parts, or one that refit() of a tree refuses. Precondition: there are as many spheres.
+  bool refit(std::span<const Sphere> spheres, const ParallelFor& parallel_for = serial_for);
+  /// A new geometry of other spheres and of the same planes and capsules. Precondition: there are
+  /// as many spheres.
+  [[nodiscard]] Geometry with_spheres(std::vector<Sphere> spheres,
+                                      const ParallelFor& parallel_for = serial_for) const;
+  /// Whether the spheres are its own, in one list.
+  [[nodiscard]] bool owns_spheres() const { return !parts_ && !tree_; }
+  /// tree_cost() of its tree; 0 without one.
+  [[nodiscard]] double cost() const;
+  /// The spheres by id. Precondition: owns_spheres().
+  [[nodiscard]] std::vector<Sphere> spheres() const;
 
   /// The view for the kernels; valid as long as this object lives and is not moved from.
   [[nodiscard]] GeometryView view() const;

@@ -58,4 +58,8 @@ inline constexpr std::size_t twigs = 6;
 inline constexpr std::size_t portions = 64;
 inline constexpr std::size_t least_portion = 64;
 
+/// A tree whose spheres have moved is built anew once its boxes have this many times the area that
+/// they had when it was built. Set by trial. Again: bench_trace --benchmark_filter=moved
+inline constexpr double worn_tree = 1.5;
+
 }  // namespace boule::tuning
