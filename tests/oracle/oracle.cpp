@@ -24,16 +24,21 @@ BigVec at(const Ray& ray, double t) { return big(ray.org) + big(ray.dir) * BigFl
 
 }  // namespace
 
-std::optional<OracleHit> oracle_hit(const Ray& ray, const Sphere& sphere) {
+std::optional<OracleRoots> oracle_roots(const Ray& ray, const Sphere& sphere) {
   const BigVec d = big(ray.dir), f = big(sphere.center) - big(ray.org);
   const BigFloat r(double{sphere.radius});
   const BigFloat a = dot(d, d), b = dot(f, d), cc = dot(f, f) - r * r;
   const BigFloat discriminant = b * b - a * cc;
   if (discriminant.sign() < 0) return {};
   const BigFloat half_chord = sqrt(discriminant);
-  const BigFloat first = (b - half_chord) / a, second = (b + half_chord) / a;
-  if (is_live(first, ray)) return OracleHit{first, second};
-  if (is_live(second, ray)) return OracleHit{second, first};
+  return OracleRoots{(b - half_chord) / a, (b + half_chord) / a};
+}
+
+std::optional<OracleHit> oracle_hit(const Ray& ray, const Sphere& sphere) {
+  const auto roots = oracle_roots(ray, sphere);
+  if (!roots) return {};
+  if (is_live(roots->enter, ray)) return OracleHit{roots->enter, roots->leave};
+  if (is_live(roots->leave, ray)) return OracleHit{roots->leave, roots->enter};
   return {};
 }
 

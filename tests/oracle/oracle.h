@@ -19,6 +19,12 @@ struct OracleHit {
   std::optional<BigFloat> other;  ///< the other root of a sphere or capsule, live or not
 };
 
+/// Both ends of a line in a sphere; equal where it touches. Nothing where it misses.
+struct OracleRoots {
+  BigFloat enter, leave;
+};
+std::optional<OracleRoots> oracle_roots(const Ray& ray, const Sphere& sphere);
+
 /// Nothing where the ray misses.
 std::optional<OracleHit> oracle_hit(const Ray& ray, const Sphere& sphere);
 std::optional<OracleHit> oracle_hit(const Ray& ray, const Plane& plane);
