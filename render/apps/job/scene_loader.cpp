@@ -9,6 +9,7 @@
 #include "render/apps/job/particle_scene.h"
 #include "render/files/particle_file/particle_file.h"
 #include "render/files/scene_file/loaded/frame_name.h"
+#include "render/files/scene_file/loaded/scene_data.h"
 
 namespace boule {
 namespace {
@@ -21,7 +22,8 @@ bool choose_the_same(const LookOptions& a, const LookOptions& b) {
 
 }  // namespace
 
-SceneLoader::SceneLoader(const RenderJob& job, ParticleFileCache* files, std::uint64_t most)
+SceneLoader::SceneLoader(const RenderJob& job, ParticleFileCache* files, std::uint64_t most,
+                         const SceneData* data)
     : path_(job.scene),
       look_(job.look),
       camera_keys_(job.camera),
@@ -32,6 +34,7 @@ SceneLoader::SceneLoader(const RenderJob& job, ParticleFileCache* files, std::ui
       scheduler_(job.threads) {
   options_.polygons = job.polygons;
   options_.trust = job.trust;
+  options_.data = data;
   options_.parallel_for = scheduler_.parallel_for();
   if (frames_ || turn_) options_.particle_files = files != nullptr ? files : &own_files_;
 }
@@ -144,12 +147,17 @@ Result<LoadedScene> SceneLoader::read_file(std::optional<int> frame) {
   options_.origin = choices_.origin;
   options_.choices = choices_.particles;
   const std::string path = frame ? frame_name(path_, *frame) : path_;
-  if (!is_particle_input(path, look_)) return load_known(path, look_, options_);
+  if (!shows_particle_file(path)) return load_known(path, look_, options_);
   is_made_ = true;
   auto made = load_particle_scene(path_, look_, options_, choices_.floor);
   if (!made) return made.error();
   if (frames_ && !choices_.floor) choices_.floor = made.value().floor;
   return std::move(made).value().loaded;
+}
+
+bool SceneLoader::shows_particle_file(const std::string& path) const {
+  const bool is_in_memory = options_.data != nullptr && options_.data->particles.contains(path);
+  return is_in_memory || is_particle_input(path, look_);
 }
 
 /// Whether other frames may bring what is to be chosen once for all of them.

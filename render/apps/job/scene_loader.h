@@ -26,9 +26,11 @@ class SceneLoader {
   /// How much of a series is read for its choices: about ten seconds.
   static constexpr std::uint64_t most_spheres = 50'000'000;
 
-  /// `files`, if not null, keeps the files of particles open, and outlives the loader.
+  /// `files`, if not null, keeps the files of particles open. `data`, if not null, has what stands
+  /// in memory in place of files; the job's scene may name particles there. Both outlive the
+  /// loader.
   explicit SceneLoader(const RenderJob& job, ParticleFileCache* files = nullptr,
-                       std::uint64_t most = most_spheres);
+                       std::uint64_t most = most_spheres, const SceneData* data = nullptr);
   SceneLoader(const SceneLoader&) = delete;
   SceneLoader& operator=(const SceneLoader&) = delete;
 
@@ -59,6 +61,7 @@ class SceneLoader {
     std::vector<std::string> notes;  ///< that are still to be told
   };
 
+  [[nodiscard]] bool shows_particle_file(const std::string& path) const;
   Result<LoadedScene> load_turned(int step);
   Result<LoadedScene> read(std::optional<int> frame);
   Result<LoadedScene> read_file(std::optional<int> frame);

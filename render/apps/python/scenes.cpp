@@ -46,8 +46,24 @@ struct Series {
   std::mutex mutex;
   std::set<std::string> told;
   RenderJob job;
+  SceneData data;
   std::unique_ptr<SceneLoader> loader;
 };
+
+/// The name of what has no file.
+constexpr const char* in_memory = "particles in memory";
+
+/// Errors about particles in memory name no file.
+Diagnostic without_memory(Diagnostic error) {
+  if (error.file == in_memory) error.file.clear();
+  return error;
+}
+
+std::shared_ptr<ParticleFile> particles_in(const Data& data) {
+  const auto* const file = std::get_if<std::shared_ptr<ParticleFile>>(&data.held);
+  if (file == nullptr) throw_error("particles", "expected particles");
+  return *file;
+}
 
 std::shared_ptr<Series> open_series(const std::string& path, int first, int last, int step,
                                     const py::dict& keys) {
@@ -58,14 +74,28 @@ std::shared_ptr<Series> open_series(const std::string& path, int first, int last
   return series;
 }
 
+/// A series of particles in memory, one frame each.
+std::shared_ptr<Series> series_of(const std::vector<Data>& all, const py::dict& keys) {
+  auto series = std::make_shared<Series>();
+  std::vector<ParticleFrame> frames;
+  for (const Data& one : all) frames.push_back(take(particles_in(one)->read(0)));
+  series->data.particles.emplace(
+      in_memory, std::make_shared<ParticleFile>(ParticleFile::of(std::move(frames))));
+  series->job.scene = in_memory;
+  series->job.look = look_of(keys);
+  series->job.frames = FrameRange{0, static_cast<int>(all.size()) - 1, 1};
+  series->loader =
+      std::make_unique<SceneLoader>(series->job, nullptr, SceneLoader::most_spheres, &series->data);
+  return series;
+}
+
 py::dict next_of_series(const std::shared_ptr<Series>& series, int frame) {
   return values_of(take(interruptible([series, frame](Call&) {
     const std::lock_guard lock(series->mutex);
     auto loaded = series->loader->load(frame);
-    if (loaded) {
-      std::erase_if(loaded.value().notes,
-                    [&](const std::string& note) { return !series->told.insert(note).second; });
-    }
+    if (!loaded) return Result<LoadedScene>(without_memory(loaded.error()));
+    std::erase_if(loaded.value().notes,
+                  [&](const std::string& note) { return !series->told.insert(note).second; });
     return loaded;
   })));
 }
@@ -91,21 +121,15 @@ py::dict read_scene(const py::object& source, const py::dict& keys) {
 
 /// The scene that shows particles in memory.
 py::dict show_particles(const Data& data, const py::dict& keys) {
-  const auto* const file = std::get_if<std::shared_ptr<ParticleFile>>(&data.held);
-  if (file == nullptr) throw_error("particles", "expected particles");
   const LookOptions look = look_of(keys);
-  auto made = take(interruptible([look, file = *file](Call& call) {
-    const std::string name = "particles in memory";
+  auto made = take(interruptible([look, file = particles_in(data)](Call& call) {
     SceneData all;
-    all.particles.emplace(name, file);
+    all.particles.emplace(in_memory, file);
     SceneFileOptions options;
     options.data = &all;
     options.parallel_for = call.parallel_for();
-    auto scene = load_particle_scene(name, look, options);
-    if (scene) return scene;
-    Diagnostic error = scene.error();
-    if (error.file == name) error.file.clear();
-    return Result<ParticleScene>(error);
+    auto scene = load_particle_scene(in_memory, look, options);
+    return scene ? std::move(scene) : Result<ParticleScene>(without_memory(scene.error()));
   }));
   return values_of(std::move(made.loaded));
 }
@@ -153,6 +177,7 @@ void bind_scenes(py::module_& module) {
       .def(py::init(&open_series), inside(), py::arg("path"), py::arg("first"), py::arg("last"),
            py::arg("step"), py::arg("keys"))
       .def("read", &next_of_series, inside(), py::arg("frame"));
+  module.def("series_of", &series_of, inside(), py::arg("all"), py::arg("keys"));
   module.def("count_frames", &count_frames, inside(), py::arg("path"), py::arg("keys"));
   module.def("read", &read_scene, inside(), py::arg("source"), py::arg("keys"));
   module.def("show_particles", &show_particles, inside(), py::arg("particles"), py::arg("keys"));

@@ -162,15 +162,17 @@ Status add_topology(const ParticleFrame& topology, ParticleFrame& frame) {
 }
 
 /// A frame that is in memory already.
-class FrameInMemory final : public ParticleReader {
+class FramesInMemory final : public ParticleReader {
  public:
-  explicit FrameInMemory(ParticleFrame frame) : frame_(std::move(frame)) {}
+  explicit FramesInMemory(std::vector<ParticleFrame> frames) : frames_(std::move(frames)) {}
 
-  [[nodiscard]] std::size_t frames() const override { return 1; }
-  Result<ParticleFrame> read(std::size_t, const ParallelFor&) override { return frame_; }
+  [[nodiscard]] std::size_t frames() const override { return frames_.size(); }
+  Result<ParticleFrame> read(std::size_t index, const ParallelFor&) override {
+    return frames_[index];
+  }
 
  private:
-  ParticleFrame frame_;
+  std::vector<ParticleFrame> frames_;
 };
 
 }  // namespace
@@ -207,7 +209,13 @@ ParticleFile::ParticleFile(std::string path, std::string_view format,
     : path_(std::move(path)), format_(format), reader_(std::move(reader)) {}
 
 ParticleFile ParticleFile::of(ParticleFrame frame) {
-  return {"", "memory", std::make_unique<FrameInMemory>(std::move(frame))};
+  std::vector<ParticleFrame> frames;
+  frames.push_back(std::move(frame));
+  return of(std::move(frames));
+}
+
+ParticleFile ParticleFile::of(std::vector<ParticleFrame> frames) {
+  return {"", "memory", std::make_unique<FramesInMemory>(std::move(frames))};
 }
 
 Result<ParticleFile> ParticleFile::open(const std::string& path, const ParticleFileOptions& options,

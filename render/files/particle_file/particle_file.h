@@ -32,8 +32,9 @@ class ParticleFile {
   static Result<ParticleFile> open(const std::string& path, const ParticleFileOptions& options = {},
                                    const ParallelFor& parallel_for = serial_for);
 
-  /// One frame in memory as if it were a file; reading it copies it.
+  /// Frames in memory, one or more, as if they were a file; reading one copies it.
   static ParticleFile of(ParticleFrame frame);
+  static ParticleFile of(std::vector<ParticleFrame> frames);
 
   [[nodiscard]] std::size_t frames() const { return reader_->frames(); }
 

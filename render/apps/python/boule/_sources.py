@@ -157,6 +157,11 @@ def from_particles(
 def from_ase(atoms, **look):
     """The scene that shows atoms of ASE: anything with get_positions(), get_atomic_numbers() and
     cell. look: as for load(); the arrays of the atoms are columns ("tags", "momenta_x", ...)."""
+    return from_particles(**_of_ase(atoms), **look)
+
+
+def _of_ase(atoms):
+    """The arguments of from_particles() that atoms of ASE are."""
     columns = {}
     count = len(atoms.get_atomic_numbers())
     for name, values in getattr(atoms, "arrays", {}).items():
@@ -167,14 +172,85 @@ def from_ase(atoms, **look):
         elif values.shape == (count, 3):
             columns.update({f"{name}_{axis}": values[:, i] for i, axis in enumerate("xyz")})
     edges = [[float(x) for x in edge] for edge in atoms.cell]
-    return from_particles(
-        atoms.get_positions(),
-        species=atoms.get_atomic_numbers(),
-        columns=columns,
-        cell=edges if _volume(edges) != 0 else None,
-        periodic=[bool(one) for one in getattr(atoms, "pbc", ())],
-        **look,
-    )
+    return {
+        "positions": atoms.get_positions(),
+        "species": atoms.get_atomic_numbers(),
+        "columns": columns,
+        "cell": edges if _volume(edges) != 0 else None,
+        "periodic": [bool(one) for one in getattr(atoms, "pbc", ())],
+    }
+
+
+# What MDAnalysis calls columns, and what files of particles call them.
+_COLUMNS_OF_MDANALYSIS = {
+    "names": "name", "resnames": "resname", "chainIDs": "chain", "segids": "segment",
+    "resids": "resid", "charges": "charge", "masses": "mass",
+}  # fmt: skip
+
+
+def _of_mdanalysis(atoms):
+    """The same for a universe or a group of atoms of MDAnalysis, as it is now."""
+    atoms = atoms.atoms
+    known = {name: getattr(atoms, name, None) for name in ("elements", "types", *_COLUMNS_OF_MDANALYSIS)}
+    elements = known["elements"]
+    has_elements = elements is not None and all(elements)
+    box = getattr(atoms.universe.trajectory.ts, "triclinic_dimensions", None)
+    return {
+        "positions": atoms.positions,
+        "species": elements if has_elements else known["types"],
+        "columns": {
+            column: known[name]
+            for name, column in _COLUMNS_OF_MDANALYSIS.items()
+            if known[name] is not None
+        },
+        "cell": None if box is None else box.astype(float),
+        "periodic": box is not None,
+    }
+
+
+def _data_of(one, place):
+    """A frame of a series as particles."""
+    if isinstance(one, dict):
+        given = one
+    elif hasattr(one, "get_positions"):
+        given = _of_ase(one)
+    elif hasattr(getattr(one, "atoms", None), "positions"):
+        given = _of_mdanalysis(one)
+    else:
+        raise error(
+            f"frames[{place}]",
+            "expected atoms of ASE or MDAnalysis, or a dictionary with the arguments of "
+            f"from_particles(), got {type(one).__name__}",
+        )
+    known = inspect.signature(particles).parameters
+    wrong = [name for name in given if name not in known]
+    if wrong or "positions" not in given:
+        problem = f"there is no {wrong[0]!r}" if wrong else "'positions' is missing"
+        raise error(f"frames[{place}]", f"{problem}; it may have {', '.join(known)}")
+    return particles(**given)
+
+
+@with_look(*_OF_MEMORY)
+def series(frames, **look):
+    """The scenes of a series of particles in memory, one after the other.
+
+    frames: each one atoms of ASE, a universe or a group of atoms of MDAnalysis, or a dictionary
+        with the arguments of from_particles() but for the look. They are read at once: of a
+        trajectory that goes on in place, give a generator, (u.atoms for _ in u.trajectory).
+    look: as for load().
+
+    As for the files of frames(), Boule makes its choices once, from all frames: radii, the ranges of
+    colour maps, the colours of kinds, the floor, the camera. Raises boule.Error.
+    """
+    try:
+        data = [_data_of(one, place) for place, one in enumerate(frames)]
+    except TypeError as wrong:
+        if hasattr(frames, "__iter__"):
+            raise
+        raise error("frames", f"expected several, got {type(frames).__name__}") from wrong
+    if not data:
+        raise error("frames", "expected one or more")
+    return _frames(_core.series_of(data, look_keys(**look)), range(len(data)))
 
 
 def _volume(edges):
