@@ -12,6 +12,7 @@
 #include "render/apps/python/data.h"
 #include "render/apps/python/errors.h"
 #include "render/apps/python/particle_arrays.h"
+#include "render/apps/python/pickling.h"
 #include "render/apps/python/picture.h"
 #include "render/apps/python/rendering.h"
 #include "render/apps/python/scenes.h"
@@ -48,6 +49,7 @@ PYBIND11_MODULE(_core, module) {
   bind_camera_rays(module);
   bind_picture(module);
   bind_rendering(module);
+  bind_pickling(module);
   bind_ends_of_calls(module);
   module.def("isa", &isa);
   module.def("use_python", &boule::set_bridge_python);

@@ -46,6 +46,7 @@ class SharedTracer {
   Status create(Scene&& scene) {
     Result<Tracer> made = Tracer::create(std::move(scene), options_);
     if (!made) return made.error();
+    primitives_ = made.value().primitives();
     tracer_.emplace(std::move(made).value());
     return {};
   }
@@ -59,6 +60,21 @@ class SharedTracer {
     return trace(*tracer_);
   }
 
+  /// Moves its spheres, which count from `zero` from now on.
+  Status update(const PlacedSpheres& placed) {
+    const std::lock_guard lock(mutex_);
+    if (auto done = tracer_->update(placed.spheres); !done) return done;
+    zero_ = placed.origin;
+    return {};
+  }
+  /// How many objects it has; of a Tracer of spheres they are all.
+  [[nodiscard]] std::size_t primitives() const { return primitives_; }
+  [[nodiscard]] PlacedSpheres spheres() {
+    const std::lock_guard lock(mutex_);
+    return {tracer_->spheres(), zero_};
+  }
+
+  /// Where rays are counted from. The calling thread is in run().
   [[nodiscard]] const Vec3d& zero() const { return zero_; }
   [[nodiscard]] TraceStatistics statistics() {
     const std::lock_guard lock(mutex_);
@@ -68,6 +84,7 @@ class SharedTracer {
  private:
   TraceOptions options_;
   Vec3d zero_;
+  std::size_t primitives_ = 0;
   std::mutex mutex_;
   std::atomic<bool> stop_{false};
   const std::atomic<bool>* asked_ = nullptr;  ///< the flag of the call that works
@@ -168,16 +185,16 @@ py::array any(const TracerHandle& tracer, const py::dict& given, const py::objec
                         });
 }
 
-py::array count(const TracerHandle& tracer, const py::dict& given) {
+py::array count(const TracerHandle& tracer, const py::dict& given, const py::object& out) {
   return each_ray<std::int64_t>(
-      tracer, given, py::none(),
+      tracer, given, out,
       [](Tracer& one, const RayColumns& columns, std::span<std::int64_t> counts) {
         return one.count(columns, counts);
       });
 }
 
-py::array chord(const TracerHandle& tracer, const py::dict& given) {
-  return each_ray<double>(tracer, given, py::none(),
+py::array chord(const TracerHandle& tracer, const py::dict& given, const py::object& out) {
+  return each_ray<double>(tracer, given, out,
                           [](Tracer& one, const RayColumns& columns, std::span<double> lengths) {
                             return one.chord(columns, lengths);
                           });
@@ -245,16 +262,16 @@ std::optional<Vec3d> origin_of(const py::object& given) {
   return origin;
 }
 
-TracerHandle of_spheres(const py::object& centers, const py::object& radii,
-                        const std::optional<Vec3d>& zero, const TraceOptions& options) {
-  const SphereInput input(centers, radii);
+/// `shown`: from where their Tracer counts rays; none: from where the spheres are counted.
+TracerHandle of_spheres(const SphereInput& input, const std::optional<Vec3d>& zero,
+                        const std::optional<Vec3d>& shown, const TraceOptions& options) {
   return take(interruptible([=](Call& call) -> Result<TracerHandle> {
     auto placed = place_spheres(input, zero, call.parallel_for());
     if (!placed) return placed.error();
     Scene scene;
     scene.materials.push_back({"default", Matte{}});
     scene.spheres = std::move(placed.value().spheres);
-    auto tracer = std::make_shared<SharedTracer>(options, placed.value().origin);
+    auto tracer = std::make_shared<SharedTracer>(options, shown.value_or(placed.value().origin));
     if (auto done = tracer->create(std::move(scene)); !done) return done.error();
     return tracer;
   }));
@@ -276,7 +293,45 @@ TracerHandle make(const py::object& source, const py::object& radii, const py::o
                   const py::dict& given) {
   const TraceOptions options = options_of(given);
   const std::optional<Vec3d> zero = origin_of(origin);
-  return radii.is_none() ? of_scene(source, options) : of_spheres(source, radii, zero, options);
+  if (radii.is_none()) return of_scene(source, options);
+  return of_spheres({source, radii}, zero, std::nullopt, options);
+}
+
+/// A Tracer of the spheres of another one, which count from `zero`: see spheres().
+TracerHandle tracer_at(const py::object& centers, const py::object& radii, const py::object& zero,
+                       const py::dict& given) {
+  return of_spheres({centers, radii}, Vec3d{}, origin_of(zero), options_of(given));
+}
+
+/// Moves the spheres of a Tracer that has nothing else. `origin` as in make().
+void update(const TracerHandle& tracer, const py::object& centers, const py::object& radii,
+            const py::object& origin) {
+  const Numbers as_before(centers, "centers", {.rows = tracer->primitives(), .columns = 3});
+  const SphereInput input(centers, radii);
+  check(interruptible([=, zero = origin_of(origin)](Call& call) -> Status {
+    auto placed = place_spheres(input, zero, call.parallel_for());
+    if (!placed) return placed.error();
+    return tracer->update(placed.value());
+  }));
+}
+
+/// Centres and radii of the spheres, and the point from which they count.
+py::tuple spheres(const TracerHandle& tracer) {
+  const auto placed = std::make_shared<PlacedSpheres>();
+  {
+    const py::gil_scoped_release no_gil;
+    *placed = tracer->spheres();
+  }
+  const auto count = static_cast<py::ssize_t>(placed->spheres.size());
+  auto centers = empty_array<float>({count, 3});
+  auto radii = empty_array<float>({count});
+  float *center = centers.mutable_data(), *radius = radii.mutable_data();
+  for (const Sphere& sphere : placed->spheres) {
+    for (const float x : {sphere.center.x, sphere.center.y, sphere.center.z}) *center++ = x;
+    *radius++ = sphere.radius;
+  }
+  const Vec3d& zero = placed->origin;
+  return py::make_tuple(centers, radii, py::make_tuple(zero.x, zero.y, zero.z));
 }
 
 py::dict statistics(const TracerHandle& tracer) {
@@ -305,10 +360,14 @@ void bind_tracing(py::module_& module) {
       .def("closest", &closest, inside(), py::arg("rays"), py::arg("out"))
       .def("any", &any, inside(), py::arg("rays"), py::arg("out"))
       .def("all_hits", &all_hits, inside(), py::arg("rays"), py::arg("limit"))
-      .def("count", &count, inside(), py::arg("rays"))
-      .def("chord", &chord, inside(), py::arg("rays"))
+      .def("count", &count, inside(), py::arg("rays"), py::arg("out"))
+      .def("chord", &chord, inside(), py::arg("rays"), py::arg("out"))
       .def("chords", &chords, inside(), py::arg("rays"))
+      .def("update", &update, inside(), py::arg("centers"), py::arg("radii"), py::arg("origin"))
+      .def("spheres", &spheres, inside())
       .def("stats", &statistics, inside());
+  module.def("tracer_at", &tracer_at, inside(), py::arg("centers"), py::arg("radii"),
+             py::arg("zero"), py::arg("options"));
 }
 
 }  // namespace boule::python

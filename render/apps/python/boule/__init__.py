@@ -46,10 +46,14 @@ from ._objects import (
     SphereLight,
     ThinLens,
 )
+from ._pickling import install as _install
 from ._rendering import Interrupted, render
 from ._scene import Capsules, Group, Scene, Spheres
-from ._sources import frames, from_ase, from_particles, load
+from ._sources import frames, from_ase, from_particles, load, series
 from ._tracing import Chords, Crossings, Hits, Tracer
+
+_install()
+del _install
 
 __all__ = [
     "Capsule",
@@ -97,6 +101,7 @@ __all__ = [
     "isa",
     "load",
     "render",
+    "series",
 ]
 
 for _name in __all__:  # as they are known to those who use them

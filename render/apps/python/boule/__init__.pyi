@@ -1,7 +1,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, Literal, NamedTuple, Union, overload
 
 import numpy as np
@@ -749,6 +749,7 @@ class Tracer:
         *,
         source: ArrayLike = ...,
         inside: ArrayLike = ...,
+        out: NDArray[np.int64] | None = ...,
     ) -> NDArray[np.int64]: ...
     @overload
     def chord(
@@ -761,6 +762,7 @@ class Tracer:
         source: ArrayLike = ...,
         inside: ArrayLike = ...,
         per_sphere: Literal[False] = ...,
+        out: NDArray[np.float64] | None = ...,
     ) -> NDArray[np.float64]: ...
     @overload
     def chord(
@@ -773,7 +775,9 @@ class Tracer:
         source: ArrayLike = ...,
         inside: ArrayLike = ...,
         per_sphere: Literal[True],
+        out: None = ...,
     ) -> Chords: ...
+    def update(self, centers: ArrayLike, radii: ArrayLike | None = ...) -> None: ...
     @property
     def stats(self) -> dict[str, Any]: ...
 
@@ -952,6 +956,37 @@ def from_ase(
     fov: float | None = ...,
     margin: float | None = ...,
 ) -> Scene: ...
+def series(
+    frames: Iterable[Any],
+    *,
+    look: _Look | None = ...,
+    quick: bool = ...,
+    floor: bool = ...,
+    color: str | None = ...,
+    colors: str | Mapping[str, str] | None = ...,
+    map: _Map | None = ...,
+    range: Sequence[float] | None = ...,
+    nan_color: str | None = ...,
+    radius: float | str | None = ...,
+    radii: str | Mapping[str, float] | None = ...,
+    scale: float | None = ...,
+    style: _Style | None = ...,
+    bonds: float | str | None = ...,
+    bond_radius: float | None = ...,
+    bond_color: str | None = ...,
+    cell_edges: bool = ...,
+    arrows: str | Sequence[str] | None = ...,
+    arrow_scale: float | None = ...,
+    select: str | None = ...,
+    wrap: bool = ...,
+    replicate: str | Sequence[int] | None = ...,
+    view: str | _Vector | None = ...,
+    up: str | _Vector | None = ...,
+    roll: float | None = ...,
+    ortho: bool = ...,
+    fov: float | None = ...,
+    margin: float | None = ...,
+) -> Iterator[Scene]: ...
 def render(
     scene: Scene | _Path,
     *,

@@ -108,6 +108,15 @@ def _shaped(array, shape):
     return array if shape is None else array.reshape(shape + array.shape[1:])
 
 
+def _each(query, rays, out):
+    """What a query finds for each ray, in `out` if that is given. rays: as _rays() returns them."""
+    given, shape = rays
+    if out is None:
+        return _shaped(query(given, None), shape)
+    query(given, out if shape is None else _flat([out], shape)[0])
+    return out
+
+
 class Tracer(Strict):
     """Traces rays against spheres, or against the objects of a scene, on all cores.
 
@@ -138,6 +147,41 @@ class Tracer(Strict):
             origin = None
         options = {"solver": solver, "threads": threads, "isa": isa}
         self._tracer = _core.Tracer(source, radii, origin, options)
+        if isinstance(source, bytes):
+            source = os.path.abspath(source)
+        self._made = {"source": source if radii is None else None, "origin": origin, "options": options}
+
+    def update(self, centers, radii=None):
+        """Moves the spheres, such as those of the next frame of a simulation: row k of centers is
+        that of sphere k.
+
+        centers: N x 3, as many as before. radii: N or one for all; None: they stay.
+
+        All answers are then, to the bit, those of a new Tracer(centers, radii), which would take
+        longer: the tree is only adapted, and built anew once that has made it slow. With
+        origin="auto" the origin is chosen anew. Only for a Tracer of arrays: raises Error for one
+        of a scene, and then, as for any wrong argument, nothing has moved.
+        """
+        if self._made["source"] is not None:
+            raise error("centers", "cannot move the spheres of a scene: make a new Tracer")
+        if radii is None:
+            radii = self._tracer.spheres()[1]
+        self._tracer.update(centers, radii, self._made["origin"])
+
+    def __getstate__(self):
+        if self._made["source"] is not None:
+            return self._made
+        centers, radii, zero = self._tracer.spheres()
+        return {**self._made, "centers": centers, "radii": radii, "zero": zero}
+
+    def __setstate__(self, state):
+        self._made = {key: state[key] for key in ("source", "origin", "options")}
+        options = self._made["options"]
+        if self._made["source"] is not None:
+            self._tracer = _core.Tracer(self._made["source"], None, None, options)
+        else:
+            spheres = (state[key] for key in ("centers", "radii", "zero"))
+            self._tracer = _core.tracer_at(*spheres, options)
 
     def closest(
         self, org, dir, tmin=0.0, tmax=float("inf"), *, source=-1, inside=False, out=None
@@ -168,11 +212,7 @@ class Tracer(Strict):
 
         Arguments are those of closest(); out: N, bool.
         """
-        rays, shape = _rays(org, dir, tmin, tmax, source, inside)
-        if out is None:
-            return _shaped(self._tracer.any(rays, None), shape)
-        self._tracer.any(rays, out if shape is None else _flat([out], shape)[0])
-        return out
+        return _each(self._tracer.any, _rays(org, dir, tmin, tmax, source, inside), out)
 
     def all_hits(
         self, org, dir, tmin=0.0, tmax=float("inf"), *, limit=None, source=-1, inside=False
@@ -191,27 +231,29 @@ class Tracer(Strict):
         rays, _ = _rays(org, dir, tmin, tmax, source, inside)
         return Crossings(*self._tracer.all_hits(rays, limit))
 
-    def count(self, org, dir, tmin=0.0, tmax=float("inf"), *, source=-1, inside=False):
-        """The number of crossings of each ray, as in all_hits(): N, int64."""
-        rays, shape = _rays(org, dir, tmin, tmax, source, inside)
-        return _shaped(self._tracer.count(rays), shape)
+    def count(self, org, dir, tmin=0.0, tmax=float("inf"), *, source=-1, inside=False, out=None):
+        """The number of crossings of each ray, as in all_hits(): N, int64. out: N, int64."""
+        return _each(self._tracer.count, _rays(org, dir, tmin, tmax, source, inside), out)
 
     def chord(
-        self, org, dir, tmin=0.0, tmax=float("inf"), *, source=-1, inside=False, per_sphere=False
-    ):
+        self, org, dir, tmin=0.0, tmax=float("inf"), *, source=-1, inside=False, per_sphere=False,
+        out=None,
+    ):  # fmt: skip
         """The length of each ray inside the union of all spheres and capsules, between tmin and
         tmax.
 
         In units of the length of dir: N, float64. Where they overlap it counts once. With
         per_sphere, the length inside each sphere and capsule on its own: Chords. Arguments are those of
-        closest().
+        closest(); out: N, float64, not with per_sphere.
         """
         if not isinstance(per_sphere, bool):
             raise error("per_sphere", f"expected True or False, got {type(per_sphere).__name__}")
-        rays, shape = _rays(org, dir, tmin, tmax, source, inside)
-        if per_sphere:
-            return Chords(*self._tracer.chords(rays))
-        return _shaped(self._tracer.chord(rays), shape)
+        rays = _rays(org, dir, tmin, tmax, source, inside)
+        if not per_sphere:
+            return _each(self._tracer.chord, rays, out)
+        if out is not None:
+            raise error("out", "cannot stand beside 'per_sphere'")
+        return Chords(*self._tracer.chords(rays[0]))
 
     @property
     def stats(self):
