@@ -479,9 +479,16 @@ _Background = Union[ConstantBackground, GradientBackground, EnvironmentBackgroun
 _Light = Union[PointLight, DirectionalLight, SphereLight]
 _Map = Union[str, Sequence[str]]
 
-class Spheres:
+class _Many:
     color: _Color | None
     material: _Material | str | None
+    def __len__(self) -> int: ...
+    @property
+    def colors(self) -> NDArray[np.uint8] | None: ...
+    @property
+    def range(self) -> list[float] | None: ...
+
+class Spheres(_Many):
     def __init__(
         self,
         centers: ArrayLike,
@@ -495,19 +502,12 @@ class Spheres:
         color: _Color | None = ...,
         material: _Material | str | None = ...,
     ) -> None: ...
-    def __len__(self) -> int: ...
     @property
     def centers(self) -> NDArray[Any]: ...
     @property
     def radii(self) -> NDArray[np.float32]: ...
-    @property
-    def colors(self) -> NDArray[np.uint8] | None: ...
-    @property
-    def range(self) -> list[float] | None: ...
 
-class Capsules:
-    color: _Color | None
-    material: _Material | str | None
+class Capsules(_Many):
     def __init__(
         self,
         a: ArrayLike,
@@ -522,17 +522,12 @@ class Capsules:
         color: _Color | None = ...,
         material: _Material | str | None = ...,
     ) -> None: ...
-    def __len__(self) -> int: ...
     @property
     def a(self) -> NDArray[Any]: ...
     @property
     def b(self) -> NDArray[Any]: ...
     @property
     def radius(self) -> NDArray[np.float32]: ...
-    @property
-    def colors(self) -> NDArray[np.uint8] | None: ...
-    @property
-    def range(self) -> list[float] | None: ...
 
 class _Objects:
     spheres: list[Sphere | Spheres | Particles]

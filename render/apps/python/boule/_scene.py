@@ -20,33 +20,13 @@ from ._objects import (
 )
 
 
-class Spheres(checks.Strict):
-    """Many spheres in arrays, which are read once: you may change the arrays afterwards.
+class _Many(checks.Strict):
+    """What Spheres and Capsules have in common: arrays, and what may stand in place of colours."""
 
-    centers: N x 3, float32 or float64. Those of float64 are kept as they are, 24 bytes each, and
-        rounded once, after the origin of the scene is subtracted.
-    radii: N, or one number for all, above 0.
-    colors: N x 3, uint8 or floats from 0 to 1: codes of the sRGB curve (color_space="srgb") or
-        linear values ("linear").
-    scalar: N numbers, which map makes colours of: the name of a map, or colours "#rrggbb"; range
-        has the numbers at its ends (the 1st and the 99th percentile).
-    color: one colour for all, "#rrggbb" or three linear numbers from 0 to 1.
-    material: a material, or the name of one in Scene.materials.
-
-    Of these, color and material can be set afterwards. All are checked when they are set, but for
-    the name of a material, which is looked up when the scene is rendered. No other attribute can be
-    set.
-    """
-
-    def __init__(
-        self, centers, radii, *, colors=None, color_space="srgb", scalar=None, map=None,
-        range=None, color=None, material=None,
-    ):  # fmt: skip
+    def _read(self, make, *arrays, colors, color_space, scalar, map, range, color, material):
         if color is not None and not (colors is None and scalar is None):
             raise error("color", "cannot stand beside 'colors' or 'scalar'")
-        self._data, self._range = _core.spheres(
-            centers, radii, colors, color_space, scalar, map, range
-        )
+        self._data, self._range = make(*arrays, colors, color_space, scalar, map, range)
         self.color = color
         self.material = material
 
@@ -59,26 +39,12 @@ class Spheres(checks.Strict):
         self.color = self.material = None
         return self
 
-    def __len__(self):
-        return len(self.radii)
-
-    @property
-    def centers(self):
-        """N x 3, read-only; a view unless the scene that they were read with has an origin."""
-        views = _core.sphere_views(self._data)
-        if views["base"] == (0, 0, 0) or views["centers"].dtype == "float64":
-            return views["centers"]
-        return views["centers"] + views["base"]
-
-    @property
-    def radii(self):
-        """N, float32, a read-only view."""
-        return _core.sphere_views(self._data)["radii"]
-
-    @property
-    def colors(self):
-        """The colours that they have of their own: N x 3 of uint8, or None."""
-        return _core.sphere_colors(self._data)
+    @staticmethod
+    def _placed(views, name):
+        """Points; a view unless they were rounded after an origin was subtracted."""
+        if views["base"] == (0, 0, 0) or views[name].dtype == "float64":
+            return views[name]
+        return views[name] + views["base"]
 
     @property
     def range(self):
@@ -106,7 +72,7 @@ class Spheres(checks.Strict):
         self._material = value
 
     def __repr__(self):
-        return f"<boule.Spheres, {len(self)} of them>"
+        return f"<boule.{type(self).__name__}, {len(self)} of them>"
 
     def _table(self, names):
         table = {"file": self._data, "color": self.color}
@@ -115,7 +81,53 @@ class Spheres(checks.Strict):
         return table
 
 
-class Capsules(checks.Strict):
+class Spheres(_Many):
+    """Many spheres in arrays, which are read once: you may change the arrays afterwards.
+
+    centers: N x 3, float32 or float64. Those of float64 are kept as they are, 24 bytes each, and
+        rounded once, after the origin of the scene is subtracted.
+    radii: N, or one number for all, above 0.
+    colors: N x 3, uint8 or floats from 0 to 1: codes of the sRGB curve (color_space="srgb") or
+        linear values ("linear").
+    scalar: N numbers, which map makes colours of: the name of a map, or colours "#rrggbb"; range
+        has the numbers at its ends (the 1st and the 99th percentile).
+    color: one colour for all, "#rrggbb" or three linear numbers from 0 to 1.
+    material: a material, or the name of one in Scene.materials.
+
+    Of these, color and material can be set afterwards. All are checked when they are set, but for
+    the name of a material, which is looked up when the scene is rendered. No other attribute can be
+    set.
+    """
+
+    def __init__(
+        self, centers, radii, *, colors=None, color_space="srgb", scalar=None, map=None,
+        range=None, color=None, material=None,
+    ):  # fmt: skip
+        self._read(
+            _core.spheres, centers, radii, colors=colors, color_space=color_space, scalar=scalar, map=map,
+            range=range, color=color, material=material,
+        )  # fmt: skip
+
+    def __len__(self):
+        return len(self.radii)
+
+    @property
+    def centers(self):
+        """N x 3, read-only; a view unless the scene that they were read with has an origin."""
+        return self._placed(_core.sphere_views(self._data), "centers")
+
+    @property
+    def radii(self):
+        """N, float32, a read-only view."""
+        return _core.sphere_views(self._data)["radii"]
+
+    @property
+    def colors(self):
+        """The colours that they have of their own: N x 3 of uint8, or None."""
+        return _core.sphere_colors(self._data)
+
+
+class Capsules(_Many):
     """Many capsules in arrays, which are read once: you may change the arrays afterwards. A capsule
     is all points within a radius of a segment.
 
@@ -134,41 +146,23 @@ class Capsules(checks.Strict):
         self, a, b, radius, *, colors=None, color_space="srgb", scalar=None, map=None, range=None,
         color=None, material=None,
     ):  # fmt: skip
-        if color is not None and not (colors is None and scalar is None):
-            raise error("color", "cannot stand beside 'colors' or 'scalar'")
-        self._data, self._range = _core.capsules(
-            a, b, radius, colors, color_space, scalar, map, range
-        )
-        self.color = color
-        self.material = material
-
-    @classmethod
-    def _of(cls, data):
-        """Those of a scene that was read."""
-        self = cls.__new__(cls)
-        self._data = data
-        self._range = None
-        self.color = self.material = None
-        return self
+        self._read(
+            _core.capsules, a, b, radius, colors=colors, color_space=color_space, scalar=scalar, map=map,
+            range=range, color=color, material=material,
+        )  # fmt: skip
 
     def __len__(self):
         return len(self.radius)
 
-    def _ends(self, name):
-        views = _core.capsule_views(self._data)
-        if views["base"] == (0, 0, 0) or views[name].dtype == "float64":
-            return views[name]
-        return views[name] + views["base"]
-
     @property
     def a(self):
         """N x 3, read-only; a view unless the scene that they were read with has an origin."""
-        return self._ends("a")
+        return self._placed(_core.capsule_views(self._data), "a")
 
     @property
     def b(self):
         """N x 3, as a."""
-        return self._ends("b")
+        return self._placed(_core.capsule_views(self._data), "b")
 
     @property
     def radius(self):
@@ -179,15 +173,6 @@ class Capsules(checks.Strict):
     def colors(self):
         """The colours that they have of their own: N x 3 of uint8, or None."""
         return _core.capsule_colors(self._data)
-
-    range = Spheres.range
-    color = Spheres.color
-    material = Spheres.material
-
-    def __repr__(self):
-        return f"<boule.Capsules, {len(self)} of them>"
-
-    _table = Spheres._table
 
 
 class _Objects(checks.Strict):
