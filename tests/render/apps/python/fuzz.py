@@ -5,7 +5,9 @@ types, shapes, strides and values, sizes 0 and huge among them; huge ones are vi
 """
 
 import collections
+import copy
 import faulthandler
+import pickle
 import random
 import resource
 import sys
@@ -205,10 +207,36 @@ class Caller:
             file.write(self.random.randbytes(self.one_of(0, 3, 100)))
         self.one_of(boule.load, boule.frames)(path, **self.keys(["frame", "color", "water"], 1))
 
+    def move(self):
+        tracer = self.random.choice(self.tracers)
+        count = self.one_of(0, 1, 5, 100, 300)
+        tracer.update(self.array(count, 3), *self.one_of((), (self.array(count),), (0.5,)))
+
+    def copy(self):
+        one = self.random.choice([*self.tracers, *self.pictures, self.small_scene(), self.value()])
+        copied = self.one_of(copy.deepcopy, lambda it: pickle.loads(pickle.dumps(it)))(one)
+        if type(one) in (boule.Tracer, boule.Picture):
+            assert type(copied) is type(one)
+
+    def camera(self):
+        scene = self.small_scene()
+        keys = {"size": (8, 6), **self.keys(["size", "spp", "sample", "filter", "seed", "crop", "frame"])}
+        rays = scene.rays(**keys)
+        assert rays.origin.shape == rays.direction.shape
+        scene.camera = scene.fitted_camera(keys["size"])
+
+    def series(self):
+        frames = [
+            {"positions": self.array(4, 3), "columns": self.one_of({}, {"q": self.array(4)})}
+            for _ in range(self.random.randint(0, 3))
+        ]
+        frames = self.one_of(frames, frames, [*frames, self.value()], self.value())
+        list(boule.series(frames, **self.keys(["look", "color", "radius", "select", "floor"], 1)))
+
     CALLS = (
         (closest, 20), (any, 10), (crossings, 20), (make_tracer, 12), (make_object, 20), (make_spheres, 10),
         (render, 6), (use_picture, 4), (make_pixels, 4), (spoil_scene, 3), (make_particles, 4),
-        (read, 3),
+        (read, 3), (move, 10), (copy, 8), (camera, 6), (series, 6),
     )  # fmt: skip
 
     def call(self):
