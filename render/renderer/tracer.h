@@ -14,10 +14,12 @@
 #include "core/math/ray.h"
 #include "core/scene/instances.h"
 #include "core/scene/scene.h"
+#include "render/frame/point_lists.h"
 #include "render/frame/progress.h"
 #include "render/frame/ray_lists.h"
 #include "render/frame/scheduler.h"
 #include "render/frame/traced_hit.h"
+#include "render/renderer/point_columns.h"
 #include "render/renderer/ray_columns.h"
 #include "render/renderer/run_statistics.h"
 #include "simd/abi/kernel_table.h"
@@ -108,6 +110,31 @@ class Tracer {
   /// materials mean nothing. Throws std::bad_alloc.
   [[nodiscard]] std::vector<Sphere> spheres() const;
 
+  /// The k nearest primitives of each point whose distance is at most `limit`, the nearest first;
+  /// at equal distance the one with the lowest id. Where there are fewer, the rest has the distance
+  /// inf and no_primitive. A distance is that of the surface, negative inside: the exact one,
+  /// rounded once. A plane bounds the half-space behind it. The answers do not depend on the
+  /// solver. An error, with the key "points" and the row, if a coordinate is not finite or beyond
+  /// 1e150 in size.
+  Status nearest(const PointColumns& points, std::size_t k, double limit,
+                 const NearestColumns& found);
+
+  /// The primitives that hold each point, on their surface or inside. Of more than sixteen exact
+  /// copies of a sphere in a packed scene, two count, here and below. Errors are as for nearest();
+  /// too little memory for the results is one with the memory that they need.
+  Result<Members> inside(const PointColumns& points);
+  /// Sets ids[k] to the lowest id of those, or to no_primitive.
+  Status first_inside(const PointColumns& points, std::span<std::int32_t> ids);
+
+  /// The primitives whose exact distance from each point is at most `radius`: one number, or one
+  /// for each point. An error if it is NaN.
+  Result<Members> within(const PointColumns& points, double radius);
+  Result<Members> within(const PointColumns& points, const RayNumbers& radius);
+
+  /// All pairs of spheres whose surfaces are at most `gap` apart, exactly: those that touch or
+  /// overlap for 0, those that overlap by at least as much for a negative number.
+  Result<SpherePairs> pairs(double gap = 0);
+
   /// The number of ids: of spheres, planes and capsules.
   [[nodiscard]] std::size_t primitives() const;
   [[nodiscard]] TraceStatistics statistics() const;
@@ -115,6 +142,9 @@ class Tracer {
  private:
   /// Answers the rays that a worker has loaded: those of the call from `first` on.
   using Body = std::function<void(TraceWorker& worker, std::size_t first)>;
+
+  /// Answers points, the block-th block of the call.
+  using PointBody = std::function<void(const PointRows& rows, std::size_t block)>;
 
   template <class AnyScene>
   static Result<Tracer> create_from(AnyScene&& scene, const TraceOptions& options);
@@ -129,6 +159,9 @@ class Tracer {
   Result<RayLists<Item>> list_items(const RayView& rays, const std::string& name,
                                     const MakeList& make_list);
   Status run_blocks(const RayView& rays, const Body& body);
+  Status run_points(const PointColumns& points, const PointBody& body);
+  Status run_points(std::size_t all, std::size_t size,
+                    const std::function<void(std::size_t)>& work);
   [[nodiscard]] bool is_solid(std::int32_t id) const { return !geometry_.is_plane({0, id}); }
   /// Rays per stream: enough to fill packets, and few enough to stay in the cache.
   static constexpr std::size_t rays_of_stream = 1024;

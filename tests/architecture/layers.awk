@@ -10,13 +10,14 @@ BEGIN {
   # Formulas, each a template that scalar code and kernels share: always inlined, and headers only,
   # or a kernel would call code that was compiled for another instruction set.
   formulas = "^core/(base/platform|math/(elementary|geometry|interval|light_cone|number|random|ray|sobol|vec|warp)|optics/(camera_view|cameras|dielectric|film_point|incidence|lens_disc|lens_rays|lens_view|lobes|reflectance))\\.h$"
-  narrow = "^(core|simd/(abi|geometry|stream|dispatch))/"
+  narrow = "^(core|simd/(abi|geometry|points|stream|dispatch))/"
 
   layer(formulas, formulas, kernel_std)
   layer("^core/base/memory_pages\\.cpp$", "^core/", plain_std "|^<(sys/mman|unistd)\\.h>$")
   layer("^core/", "^core/", plain_std)
   layer("^simd/abi/", "^(simd/abi/|core/(base/platform|math/(ray|vec)|optics/(camera|lens)_view)\\.h$)", kernel_std)
   layer("^simd/(geometry|stream)/", "^(core|simd/(abi|geometry|stream))/", plain_std)
+  layer("^simd/points/", "^(core|simd/(abi|geometry|points))/", plain_std)
   layer("^simd/lanes/", formulas "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")
   layer("^simd/kernel/", formulas "|^simd/(abi|lanes|kernel)/", kernel_std)
   layer("^simd/dispatch/", "^(core|simd/(abi|dispatch))/", plain_std "|^<cpuid\\.h>$")
