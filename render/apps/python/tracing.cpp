@@ -3,10 +3,8 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,9 +17,11 @@
 #include "render/apps/python/call.h"
 #include "render/apps/python/errors.h"
 #include "render/apps/python/job_arguments.h"
+#include "render/apps/python/points.h"
 #include "render/apps/python/presence.h"
 #include "render/apps/python/ray_input.h"
 #include "render/apps/python/scenes.h"
+#include "render/apps/python/shared_tracer.h"
 #include "render/apps/python/sphere_arrays.h"
 #include "render/memory/available_memory.h"
 #include "render/renderer/tracer.h"
@@ -31,68 +31,6 @@ namespace py = pybind11;
 namespace boule::python {
 namespace {
 
-/// So few rays take less than a millisecond: they are traced without a thread that waits.
-constexpr std::size_t few_rays = 2048;
-
-/// A Tracer that any threads may call: one call at a time works, the others wait for it.
-class SharedTracer {
- public:
-  SharedTracer(TraceOptions options, const Vec3d& zero)
-      : options_(std::move(options)), zero_(zero) {
-    options_.cancel = &stop_;
-    options_.progress = [this](const Progress&) { stop_ = asked_->load(); };
-  }
-
-  Status create(Scene&& scene) {
-    Result<Tracer> made = Tracer::create(std::move(scene), options_);
-    if (!made) return made.error();
-    primitives_ = made.value().primitives();
-    tracer_.emplace(std::move(made).value());
-    return {};
-  }
-
-  /// Traces, until `cancel` is true.
-  template <class Trace>
-  Status run(const std::atomic<bool>& cancel, const Trace& trace) {
-    const std::lock_guard lock(mutex_);
-    asked_ = &cancel;
-    stop_ = cancel.load();
-    return trace(*tracer_);
-  }
-
-  /// Moves its spheres, which count from `zero` from now on.
-  Status update(const PlacedSpheres& placed) {
-    const std::lock_guard lock(mutex_);
-    if (auto done = tracer_->update(placed.spheres); !done) return done;
-    zero_ = placed.origin;
-    return {};
-  }
-  /// How many objects it has; of a Tracer of spheres they are all.
-  [[nodiscard]] std::size_t primitives() const { return primitives_; }
-  [[nodiscard]] PlacedSpheres spheres() {
-    const std::lock_guard lock(mutex_);
-    return {tracer_->spheres(), zero_};
-  }
-
-  /// Where rays are counted from. The calling thread is in run().
-  [[nodiscard]] const Vec3d& zero() const { return zero_; }
-  [[nodiscard]] TraceStatistics statistics() {
-    const std::lock_guard lock(mutex_);
-    return tracer_->statistics();
-  }
-
- private:
-  TraceOptions options_;
-  Vec3d zero_;
-  std::size_t primitives_ = 0;
-  std::mutex mutex_;
-  std::atomic<bool> stop_{false};
-  const std::atomic<bool>* asked_ = nullptr;  ///< the flag of the call that works
-  std::optional<Tracer> tracer_;
-};
-
-using TracerHandle = std::shared_ptr<SharedTracer>;
-
 using RayHandle = std::shared_ptr<const RayInput>;
 
 RayHandle rays_of(const py::dict& given) { return std::make_shared<const RayInput>(given); }
@@ -100,20 +38,8 @@ RayHandle rays_of(const py::dict& given) { return std::make_shared<const RayInpu
 /// Runs query(tracer, columns), with a thread that waits for signals if it may take long.
 template <class Query>
 void trace(const TracerHandle& tracer, const RayHandle& rays, const Query& query) {
-  const auto work = [tracer, rays, query](const std::atomic<bool>& cancel) {
-    return tracer->run(cancel,
-                       [&](Tracer& one) { return query(one, rays->columns(tracer->zero())); });
-  };
-  if (rays->count() <= few_rays) {
-    const std::atomic<bool> never{false};
-    Status status;
-    {
-      const py::gil_scoped_release no_gil;
-      status = work(never);
-    }
-    return check(status);
-  }
-  check(interruptible([work](Call& call) { return work(call.cancel); }));
+  ask(tracer, rays->count(),
+      [rays, query](Tracer& one, const Vec3d& zero) { return query(one, rays->columns(zero)); });
 }
 
 void check_room(std::size_t rays, std::size_t bytes_each) {
@@ -215,28 +141,22 @@ auto lists(const TracerHandle& tracer, const py::dict& given, const Query& query
   return found;
 }
 
-/// A vector's values as an array, which keeps all of `lists`.
-template <class Shown, class Lists, class Number>
-py::array column_of(const std::shared_ptr<Lists>& lists, std::vector<Number>& column) {
-  static_assert(sizeof(Shown) == sizeof(Number));
-  return array_in(reinterpret_cast<Shown*>(column.data()),
-                  {static_cast<py::ssize_t>(column.size())}, lists);
-}
-
 py::tuple all_hits(const TracerHandle& tracer, const py::dict& given,
                    std::optional<std::size_t> limit) {
   const auto all = lists(tracer, given, [limit](Tracer& one, const RayColumns& columns) {
     return one.all_hits(columns, limit);
   });
-  return py::make_tuple(column_of<std::int64_t>(all, all->offset), column_of<double>(all, all->t),
-                        column_of<std::int32_t>(all, all->id), column_of<bool>(all, all->entering));
+  return py::make_tuple(kept_column<std::int64_t>(all, all->offset),
+                        kept_column<double>(all, all->t), kept_column<std::int32_t>(all, all->id),
+                        kept_column<bool>(all, all->entering));
 }
 
 py::tuple chords(const TracerHandle& tracer, const py::dict& given) {
   const auto all = lists(
       tracer, given, [](Tracer& one, const RayColumns& columns) { return one.chords(columns); });
-  return py::make_tuple(column_of<std::int64_t>(all, all->offset),
-                        column_of<std::int32_t>(all, all->id), column_of<double>(all, all->length));
+  return py::make_tuple(kept_column<std::int64_t>(all, all->offset),
+                        kept_column<std::int32_t>(all, all->id),
+                        kept_column<double>(all, all->length));
 }
 
 TraceOptions options_of(const py::dict& given) {
@@ -354,7 +274,8 @@ py::dict statistics(const TracerHandle& tracer) {
 }  // namespace
 
 void bind_tracing(py::module_& module) {
-  py::class_<SharedTracer, TracerHandle>(module, "Tracer")
+  py::class_<SharedTracer, TracerHandle> tracer(module, "Tracer");
+  tracer
       .def(py::init(&make), inside(), py::arg("source"), py::arg("radii"), py::arg("origin"),
            py::arg("options"))
       .def("closest", &closest, inside(), py::arg("rays"), py::arg("out"))
@@ -368,6 +289,7 @@ void bind_tracing(py::module_& module) {
       .def("stats", &statistics, inside());
   module.def("tracer_at", &tracer_at, inside(), py::arg("centers"), py::arg("radii"),
              py::arg("zero"), py::arg("options"));
+  bind_points(tracer);
 }
 
 }  // namespace boule::python

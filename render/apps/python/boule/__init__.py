@@ -50,7 +50,7 @@ from ._pickling import install as _install
 from ._rendering import Interrupted, render
 from ._scene import Capsules, Group, Scene, Spheres
 from ._sources import frames, from_ase, from_particles, load, series
-from ._tracing import Chords, Crossings, Hits, Tracer
+from ._tracing import Chords, Crossings, Hits, Members, Nearest, Pairs, Tracer
 
 _install()
 del _install
@@ -77,8 +77,11 @@ __all__ = [
     "Interrupted",
     "Lens",
     "Matte",
+    "Members",
     "Metal",
+    "Nearest",
     "Orthographic",
+    "Pairs",
     "Particles",
     "Phong",
     "Picture",

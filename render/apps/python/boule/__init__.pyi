@@ -691,6 +691,19 @@ class Chords(NamedTuple):
     id: NDArray[np.int32]
     length: NDArray[np.float64]
 
+class Nearest(NamedTuple):
+    distance: NDArray[np.float64]
+    id: NDArray[np.int32]
+
+class Members(NamedTuple):
+    offset: NDArray[np.int64]
+    id: NDArray[np.int32]
+
+class Pairs(NamedTuple):
+    first: NDArray[np.int32]
+    second: NDArray[np.int32]
+    gap: NDArray[np.float64]
+
 class Tracer:
     def __init__(
         self,
@@ -773,6 +786,13 @@ class Tracer:
         out: None = ...,
     ) -> Chords: ...
     def update(self, centers: ArrayLike, radii: ArrayLike | None = ...) -> None: ...
+    def nearest(self, points: ArrayLike, k: int = ..., limit: float = ...) -> Nearest: ...
+    @overload
+    def inside(self, points: ArrayLike, *, first: Literal[False] = ...) -> Members: ...
+    @overload
+    def inside(self, points: ArrayLike, *, first: Literal[True]) -> NDArray[np.int32]: ...
+    def within(self, points: ArrayLike, radius: ArrayLike) -> Members: ...
+    def pairs(self, gap: float = ...) -> Pairs: ...
     @property
     def stats(self) -> dict[str, Any]: ...
 

@@ -67,6 +67,41 @@ class Chords(NamedTuple):
     length: NDArray[np.float64]
 
 
+class Nearest(NamedTuple):
+    """The nearest primitives of N points. Where there is none, the distance is inf and the id -1.
+
+    distance: N, float64; N x k for k above 1: of the surface, negative inside.
+    id: as distance, int32: of the sphere, plane or capsule, in this order.
+    """
+
+    distance: NDArray[np.float64]
+    id: NDArray[np.int32]
+
+
+class Members(NamedTuple):
+    """Primitives of N points. Those of point k are from offset[k] to before offset[k + 1], in the
+    order of ids.
+
+    offset: N + 1, int64.
+    id: M, int32.
+    """
+
+    offset: NDArray[np.int64]
+    id: NDArray[np.int32]
+
+
+class Pairs(NamedTuple):
+    """Pairs of spheres, in the order of `first`, then of `second`.
+
+    first, second: M, int32: ids, first < second.
+    gap: M, float64: the distance of their surfaces, negative where they overlap.
+    """
+
+    first: NDArray[np.int32]
+    second: NDArray[np.int32]
+    gap: NDArray[np.float64]
+
+
 def _leading(array, width):
     """The shape of rays in an array of more than one dimension of them, and the array as a list of
     rays. None, and the array as it is, for a list or one value. width: the dimensions of one ray."""
@@ -102,6 +137,16 @@ def _flat(arrays, shape):
             raise error("out", f"expected arrays in C order of shape {shape} and more")
         flat.append(array.reshape((math.prod(shape), *array.shape[len(shape) :])))
     return tuple(flat)
+
+
+def _number(name, value):
+    try:
+        number = float(value)
+    except (TypeError, ValueError):
+        number = math.nan
+    if math.isnan(number) or isinstance(value, (str, bool)):
+        raise error(name, f"expected a number, got {value!r}")
+    return number
 
 
 def _shaped(array, shape):
@@ -254,6 +299,57 @@ class Tracer(Strict):
         if out is not None:
             raise error("out", "cannot stand beside 'per_sphere'")
         return Chords(*self._tracer.chords(rays[0]))
+
+    def nearest(self, points, k=1, limit=float("inf")):
+        """The k nearest spheres, planes and capsules of each point, the nearest first.
+
+        points: N x 3, float32 or float64, read where they are, finite and at most 1e150 in size;
+        or of any shape in place of N. k: at least 1. limit: the largest distance that counts.
+
+        The distance is that of the surface, negative inside: the exact one, rounded once. At equal
+        distance the lower id comes first. A plane bounds the half-space behind it. Returns Nearest.
+        """
+        if not isinstance(k, int) or isinstance(k, bool):
+            raise error("k", f"expected a whole number, got {type(k).__name__}")
+        if not 1 <= k < 2**31:
+            raise error("k", f"must be at least 1 and below 2^31, is {k}")
+        limit = _number("limit", limit)
+        shape, points = _leading(points, 1)
+        found = self._tracer.nearest(points, k, limit)
+        return Nearest(*(_shaped(a[:, 0] if k == 1 else a, shape) for a in found))
+
+    def inside(self, points, *, first=False):
+        """The spheres, planes and capsules that each point is in. A point on the surface is inside.
+
+        points: as for nearest(). With first, the lowest id of each point, or -1: N, int32.
+        Otherwise Members; points of other shapes than N are counted in C order.
+        """
+        if not isinstance(first, bool):
+            raise error("first", f"expected True or False, got {type(first).__name__}")
+        shape, points = _leading(points, 1)
+        if first:
+            return _shaped(self._tracer.first_inside(points), shape)
+        return Members(*self._tracer.members(points, 0.0))
+
+    def within(self, points, radius):
+        """The spheres, planes and capsules whose distance is at most `radius`, decided exactly.
+
+        points: as for nearest(), and so is the distance: a negative radius asks for points so deep
+        inside. radius: N, or one number for all. Returns Members.
+        """
+        shape, points = _leading(points, 1)
+        given, radius = _leading(radius, 0)
+        if given is not None and given != shape:
+            raise error("radius", f"expected one number for each point, got shape {given}")
+        return Members(*self._tracer.members(points, radius))
+
+    def pairs(self, gap=0.0):
+        """All pairs of spheres whose surfaces are at most `gap` apart, decided exactly.
+
+        0 gives the spheres that touch or overlap, a negative gap those that overlap by as much.
+        Planes and capsules are left out: within() has them. Returns Pairs.
+        """
+        return Pairs(*self._tracer.pairs(_number("gap", gap)))
 
     @property
     def stats(self):
