@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/base/error.h"
 #include "core/math/vec.h"
 #include "render/renderer/ray_columns.h"
 
@@ -33,6 +34,9 @@ class PointColumns {
   RayNumbers numbers_;
   Vec3d zero_{};
 };
+
+/// An error about the first point that has no distance, with its row; rows count from `first_row`.
+Status check_points(const PointColumns& points, std::uint64_t first_row = 0);
 
 /// An order of points in which those that follow one another are often close, so that they find
 /// what they need in the caches.

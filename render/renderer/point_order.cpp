@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <string>
 
+#include "core/scene/number_text.h"
 #include "render/renderer/point_columns.h"
+#include "simd/points/point_distance.h"
 
 namespace boule {
 namespace {
@@ -44,6 +48,20 @@ class Axis {
 };
 
 }  // namespace
+
+Status check_points(const PointColumns& points, std::uint64_t first_row) {
+  const auto is_good = [](double x) { return std::fabs(x) <= most_point_coordinate; };
+  for (std::size_t row = 0; row < points.size(); ++row) {
+    const Vec3d point = points.at(row);
+    for (const double x : {point.x, point.y, point.z}) {
+      if (is_good(x)) continue;
+      return Diagnostic::about("points", "row " + std::to_string(first_row + row) +
+                                             ": must be finite and at most 1e150 in size, is " +
+                                             number_text(x));
+    }
+  }
+  return {};
+}
 
 void PointOrder::make(const PointColumns& points, std::size_t first, std::size_t count) {
   rows.resize(count);

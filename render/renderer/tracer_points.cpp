@@ -20,21 +20,6 @@ namespace {
 /// Points that are put in order at a time, a multiple of the blocks.
 constexpr std::size_t points_of_chunk = std::size_t{1} << 20;
 
-/// An error about the first point that has no distance.
-Status check_points(const PointColumns& points) {
-  const auto is_good = [](double x) { return std::fabs(x) <= most_point_coordinate; };
-  for (std::size_t row = 0; row < points.size(); ++row) {
-    const Vec3d point = points.at(row);
-    for (const double x : {point.x, point.y, point.z}) {
-      if (is_good(x)) continue;
-      return Diagnostic::about("points", "row " + std::to_string(row) +
-                                             ": must be finite and at most 1e150 in size, is " +
-                                             number_text(x));
-    }
-  }
-  return {};
-}
-
 Status check_radii(const RayNumbers& radius, std::size_t points) {
   const std::size_t rows = radius.ray_step == 0 ? std::min<std::size_t>(points, 1) : points;
   for (std::size_t row = 0; row < rows; ++row) {

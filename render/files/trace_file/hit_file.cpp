@@ -11,17 +11,16 @@
 namespace boule {
 namespace {
 
-constexpr std::size_t hit_bytes = 25, crossing_bytes = 21;
+constexpr std::size_t hit_bytes = 25, crossing_bytes = 21, member_bytes = 12, pair_bytes = 16;
 constexpr std::size_t rows_per_write = 4096;
 
 /// The header as numpy.save writes it: the count has room to grow to 21 digits, and the data begin
 /// at a multiple of 64 bytes.
-std::string npy_start(const std::string& descr, std::uint64_t count) {
+std::string npy_start(const std::string& descr, const std::string& shape) {
   constexpr std::size_t alignment = 64, before = 10, most_digits = 21;
-  const std::string digits = std::to_string(count);
-  std::string dict =
-      "{'descr': " + descr + ", 'fortran_order': False, 'shape': (" + digits + ",), }";
-  dict.append(most_digits - digits.size(), ' ');
+  std::string dict = "{'descr': " + descr + ", 'fortran_order': False, 'shape': (" + shape + "), }";
+  const std::size_t digits = shape.find(',');
+  dict.append(most_digits - digits, ' ');
   while ((before + dict.size() + 1) % alignment != 0) dict += ' ';
   dict += '\n';
   std::string start("\x93NUMPY\x01\x00", 8);
@@ -29,6 +28,8 @@ std::string npy_start(const std::string& descr, std::uint64_t count) {
   start += static_cast<char>(dict.size() >> 8);
   return start + dict;
 }
+
+std::string shape_of(std::uint64_t count) { return std::to_string(count) + ","; }
 
 /// Writes the lowest `width` bytes, the lowest first on every machine.
 unsigned char* put(unsigned char* to, std::uint64_t bits, std::size_t width) {
@@ -60,6 +61,12 @@ std::string descr_of(HitKind kind) {
       return "'<i8'";
     case HitKind::chord:
       return "'<f8'";
+    case HitKind::nearest:
+      return "[('distance', '<f8'), ('id', '<i4')]";
+    case HitKind::members:
+      return "[('point', '<i8'), ('id', '<i4')]";
+    case HitKind::pairs:
+      return "[('first', '<i4'), ('second', '<i4'), ('gap', '<f8')]";
   }
   return {};
 }
@@ -70,21 +77,32 @@ HitFile::HitFile(OutputFile file, std::string name, HitKind kind, std::uint64_t 
     : file_(std::move(file)),
       name_(std::move(name)),
       kind_(kind),
-      left_(kind == HitKind::all ? 0 : count) {}
+      left_(is_list(kind) ? 0 : count) {}
 
 Result<HitFile> HitFile::create(const std::string& path, HitKind kind, std::uint64_t count,
                                 const std::function<bool()>& stop) {
+  return begin(path, kind, count, shape_of(is_list(kind) ? 0 : count), stop);
+}
+
+Result<HitFile> HitFile::create_nearest(const std::string& path, std::uint64_t count, std::size_t k,
+                                        const std::function<bool()>& stop) {
+  const std::string shape =
+      k == 1 ? shape_of(count) : std::to_string(count) + ", " + std::to_string(k);
+  return begin(path, HitKind::nearest, count * k, shape, stop);
+}
+
+Result<HitFile> HitFile::begin(const std::string& path, HitKind kind, std::uint64_t count,
+                               const std::string& shape, const std::function<bool()>& stop) {
   Result<OutputFile> file = OutputFile::create(path, stop);
   if (!file) return file.error();
-  if (kind == HitKind::all) count = 0;
-  const std::string start = npy_start(descr_of(kind), count);
+  const std::string start = npy_start(descr_of(kind), shape);
   if (auto done = file.value().write(start.data(), start.size()); !done) return done.error();
   return HitFile(std::move(file).value(), path, kind, count);
 }
 
 Status HitFile::take(HitKind kind, std::size_t hits) {
   if (kind != kind_) return cannot_write(name_, "hits of the other kind");
-  if (kind == HitKind::all) {
+  if (is_list(kind)) {
     left_ += hits;
     return {};
   }
@@ -138,6 +156,33 @@ Status HitFile::append(const Crossings& crossings, std::uint64_t first_ray) {
   });
 }
 
+Status HitFile::append(const Members& members, std::uint64_t first_point) {
+  if (auto done = take(HitKind::members, members.id.size()); !done) return done;
+  std::size_t point = 0;
+  return write_rows(members.id.size(), member_bytes, [&](unsigned char* to, std::size_t k) {
+    while (members.offset[point + 1] <= static_cast<std::int64_t>(k)) ++point;
+    to = put(to, first_point + point, 8);
+    return put(to, static_cast<std::uint32_t>(members.id[k]), 4);
+  });
+}
+
+Status HitFile::append(const SpherePairs& pairs) {
+  if (auto done = take(HitKind::pairs, pairs.gap.size()); !done) return done;
+  return write_rows(pairs.gap.size(), pair_bytes, [&](unsigned char* to, std::size_t k) {
+    to = put(to, static_cast<std::uint32_t>(pairs.first[k]), 4);
+    to = put(to, static_cast<std::uint32_t>(pairs.second[k]), 4);
+    return put(to, std::bit_cast<std::uint64_t>(pairs.gap[k]), 8);
+  });
+}
+
+Status HitFile::append(std::span<const double> distances, std::span<const std::int32_t> ids) {
+  if (auto done = take(HitKind::nearest, ids.size()); !done) return done;
+  return write_rows(ids.size(), member_bytes, [&](unsigned char* to, std::size_t k) {
+    to = put(to, std::bit_cast<std::uint64_t>(distances[k]), 8);
+    return put(to, static_cast<std::uint32_t>(ids[k]), 4);
+  });
+}
+
 Status HitFile::append(std::span<const std::uint8_t> met) {
   if (auto done = take(HitKind::any, met.size()); !done) return done;
   return file_.write(met.data(), met.size());
@@ -145,8 +190,8 @@ Status HitFile::append(std::span<const std::uint8_t> met) {
 
 /// The number of crossings is known only in the end.
 Status HitFile::complete_header() {
-  if (kind_ != HitKind::all) return {};
-  const std::string start = npy_start(descr_of(kind_), left_);
+  if (!is_list(kind_)) return {};
+  const std::string start = npy_start(descr_of(kind_), shape_of(left_));
   return file_.rewrite_start(start.data(), start.size());
 }
 
@@ -156,7 +201,7 @@ Status HitFile::sync() {
 }
 
 Status HitFile::commit(const std::function<bool()>& stop) {
-  if (kind_ != HitKind::all && left_ > 0)
+  if (!is_list(kind_) && left_ > 0)
     return cannot_write(name_, std::to_string(left_) + " hits are missing");
   if (auto done = complete_header(); !done) return done;
   return file_.commit(stop);

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <new>
+#include <optional>
 #include <utility>
 
 #include "render/apps/cli/commands/commands.h"
+#include "render/apps/cli/options/trace_options.h"
 #include "render/apps/cli/process/interrupt.h"
 #include "render/apps/cli/process/messages.h"
 #include "render/apps/cli/process/reading_limit.h"
@@ -14,26 +17,48 @@
 #include "render/apps/job/scene_loader.h"
 #include "render/files/scene_file/scene_file.h"
 #include "render/files/trace_file/hit_file.h"
+#include "render/files/trace_file/point_file.h"
 #include "render/files/trace_file/ray_file.h"
 #include "render/frame/scheduler.h"
 #include "render/frame/stopwatch.h"
+#include "render/memory/available_memory.h"
 #include "render/renderer/tracer.h"
 
 namespace boule::cli {
 namespace {
 
-/// Rays in memory at a time, so that a file of any length will do.
+/// Rays or points in memory at a time, so that a file of any length will do.
 constexpr std::uint64_t rays_of_chunk = std::uint64_t{1} << 18;
 
 /// Errors in the command that show without reading any file.
 Status check(const TraceCommand& command) {
+  if (auto done = check_questions(command); !done) return done;
   if (!is_npy_name(command.output)) {
     return wrong_option(
         "hits are written as .npy, which is not the extension of " + quote(command.output),
         "--output");
   }
-  return check_run(command, command, "hits", {command.scene, command.rays});
+  std::vector<std::string> inputs = {command.scene};
+  for (const std::string& name : {command.rays, command.points}) {
+    if (!name.empty()) inputs.push_back(name);
+  }
+  return check_run(command, command, "hits", inputs);
 }
+
+/// The file with what is asked about: neither for pairs.
+struct Questions {
+  std::optional<RayFile> rays;
+  std::optional<PointFile> points;
+
+  [[nodiscard]] std::uint64_t size() const {
+    if (points) return points->size();
+    return rays ? rays->size() : 0;
+  }
+  void count_from(const Vec3d& zero) {
+    if (rays) rays->count_from(zero);
+    if (points) points->count_from(zero);
+  }
+};
 
 /// An error and the exit code it leads to.
 struct Failure {
@@ -46,6 +71,7 @@ class Tracing {
  public:
   explicit Tracing(const TraceCommand& command)
       : command_(command),
+        kind_(kind_of(command)),
         live_(command),
         report_(command, command, live_),
         limit_(command.load_limit),
@@ -55,18 +81,21 @@ class Tracing {
 
  private:
   Result<LoadedScene> load();
-  Result<RayFile> open_rays();
-  Status read_chunk(RayFile& rays);
-  ExitCode write(RayFile& rays, Tracer& tracer);
-  std::optional<Failure> trace_to_file(RayFile& rays, Tracer& tracer);
-  std::optional<Failure> trace_chunks(RayFile& rays, Tracer& tracer, HitFile& file);
+  Result<Questions> open_questions();
+  Status read_chunk(Questions& questions, std::size_t size);
+  ExitCode write(Questions& questions, Tracer& tracer);
+  Result<HitFile> create_file(std::uint64_t size);
+  std::optional<Failure> trace_to_file(Questions& questions, Tracer& tracer);
+  std::optional<Failure> trace_chunks(Questions& questions, Tracer& tracer, HitFile& file);
   Status trace_chunk(Tracer& tracer);
+  Status ask_chunk(Tracer& tracer);
   Status append_chunk(HitFile& file);
   void show_progress(const Progress& progress, std::uint64_t all);
   ExitCode finish(const Tracer& tracer);
   void tell_end() const;
 
   const TraceCommand& command_;
+  HitKind kind_;
   LiveReport live_;
   RunReport report_;
   ReadingLimit limit_;
@@ -79,7 +108,13 @@ class Tracing {
   Crossings crossings_;
   std::vector<std::int64_t> counts_;
   std::vector<double> lengths_;
-  std::uint64_t traced_ = 0;  ///< rays of the chunks before
+  std::vector<Vec3d> points_;
+  std::vector<double> distances_;
+  std::vector<std::int32_t> ids_;
+  Members members_;
+  SpherePairs pairs_;
+  std::uint64_t chunk_ = rays_of_chunk;
+  std::uint64_t traced_ = 0;  ///< rays or points of the chunks before
   std::uint64_t hit_count_ = 0;
   std::uint64_t lost_ = 0;  ///< as RayFile::lost()
 };
@@ -90,14 +125,40 @@ Result<LoadedScene> Tracing::load() {
   return SceneLoader({command_}).load(std::nullopt);
 }
 
-Result<RayFile> Tracing::open_rays() {
-  const ReadingLimit::Reading reading(limit_, command_.rays);
-  return RayFile::open(command_.rays);
+Result<Questions> Tracing::open_questions() {
+  Questions questions;
+  if (!command_.rays.empty()) {
+    const ReadingLimit::Reading reading(limit_, command_.rays);
+    auto rays = RayFile::open(command_.rays);
+    if (!rays) return rays.error();
+    questions.rays = std::move(rays).value();
+  }
+  if (!command_.points.empty()) {
+    const ReadingLimit::Reading reading(limit_, command_.points);
+    auto points = PointFile::open(command_.points);
+    if (!points) return points.error();
+    questions.points = std::move(points).value();
+  }
+  return questions;
 }
 
-Status Tracing::read_chunk(RayFile& rays) {
-  const ReadingLimit::Reading reading(limit_, command_.rays);
-  return rays.read(rays_);
+Status Tracing::read_chunk(Questions& questions, std::size_t size) {
+  if (questions.points) {
+    const ReadingLimit::Reading reading(limit_, command_.points);
+    points_.resize(size);
+    if (auto done = questions.points->read(points_); !done) return done;
+    if (auto done = check_points(points_, traced_); !done) {
+      Diagnostic error = done.error();
+      error.file = command_.points;
+      return error;
+    }
+  }
+  if (questions.rays) {
+    const ReadingLimit::Reading reading(limit_, command_.rays);
+    rays_.resize(size);
+    return questions.rays->read(rays_);
+  }
+  return {};
 }
 
 ExitCode Tracing::run() {
@@ -108,33 +169,33 @@ ExitCode Tracing::run() {
   if (!loaded) return report(loaded.error(), code_of_loading(loaded.error()));
   if (auto done = check_data_files(command_, "hits", loaded.value().data_files); !done)
     return report(done.error(), wrong_usage);
-  auto rays = open_rays();
-  if (!rays) return report(rays.error(), invalid_input);
+  auto questions = open_questions();
+  if (!questions) return report(questions.error(), invalid_input);
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
-  rays.value().count_from(loaded.value().origin);
+  questions.value().count_from(loaded.value().origin);
   live_.start_stage("preparing " + printable(command_.scene));
 
   TraceOptions options;
   options.solver = command_.solver;
   options.threads = command_.threads;
   options.isa = command_.isa;
-  options.progress = [this, all = rays.value().size()](const Progress& progress) {
+  options.progress = [this, all = questions.value().size()](const Progress& progress) {
     show_progress(progress, all);
   };
   auto tracer = Tracer::create(std::move(loaded.value().scene), options);
   if (!tracer) return report(tracer.error(), failed);
   live_.end_stage();
   report_.prepared(tracer.value().statistics());
-  rays.value().limit_sources(tracer.value().primitives());
-  return write(rays.value(), tracer.value());
+  if (auto& rays = questions.value().rays) rays->limit_sources(tracer.value().primitives());
+  return write(questions.value(), tracer.value());
 }
 
-ExitCode Tracing::write(RayFile& rays, Tracer& tracer) {
+ExitCode Tracing::write(Questions& questions, Tracer& tracer) {
   std::optional<Failure> failure;
   {
     const WriteGuard guard;
-    failure = trace_to_file(rays, tracer);
+    failure = trace_to_file(questions, tracer);
     if (!failure) set_written("the hits had been written");
   }
   exit_if_interrupted();
@@ -142,14 +203,28 @@ ExitCode Tracing::write(RayFile& rays, Tracer& tracer) {
   return failure ? report(failure->error, failure->code) : finish(tracer);
 }
 
-std::optional<Failure> Tracing::trace_to_file(RayFile& rays, Tracer& tracer) {
-  auto file = HitFile::create(command_.output, command_.answer, rays.size(),
-                              [] { return WriteGuard::interrupted(); });
+/// Chunks of points are smaller if each has many answers.
+Result<HitFile> Tracing::create_file(std::uint64_t size) {
+  const auto stop = [] { return WriteGuard::interrupted(); };
+  if (kind_ == HitKind::nearest) {
+    const std::uint64_t k = command_.nearest.value_or(1);
+    chunk_ = std::max<std::uint64_t>(rays_of_chunk / k, 1);
+    const std::uint64_t bytes =
+        std::min(size, chunk_) * k * (sizeof(double) + sizeof(std::int32_t));
+    if (auto done = check_memory(bytes, "the nearest objects of points need"); !done)
+      return done.error();
+    return HitFile::create_nearest(command_.output, size, k, stop);
+  }
+  return HitFile::create(command_.output, kind_, size, stop);
+}
+
+std::optional<Failure> Tracing::trace_to_file(Questions& questions, Tracer& tracer) {
+  auto file = create_file(questions.size());
   if (!file) return Failure{file.error(), failed};
   {
     const RemovalGuard removal(file.value().temporary());
-    live_.start_pass("rays");
-    if (auto bad = trace_chunks(rays, tracer, file.value())) return bad;
+    live_.start_pass(command_.pairs ? "spheres" : (questions.points ? "points" : "rays"));
+    if (auto bad = trace_chunks(questions, tracer, file.value())) return bad;
     live_.end_pass();
     live_.start_stage("writing " + printable(command_.output));
     const Stopwatch watch;
@@ -166,26 +241,26 @@ std::optional<Failure> Tracing::trace_to_file(RayFile& rays, Tracer& tracer) {
 }
 
 /// Traces at least one chunk: a file without rays is no special case.
-std::optional<Failure> Tracing::trace_chunks(RayFile& rays, Tracer& tracer, HitFile& file) {
+std::optional<Failure> Tracing::trace_chunks(Questions& questions, Tracer& tracer, HitFile& file) {
   do {
-    const std::uint64_t left = rays.size() - traced_;
-    rays_.resize(static_cast<std::size_t>(std::min(left, rays_of_chunk)));
+    const std::uint64_t left = questions.size() - traced_;
+    const auto size = static_cast<std::size_t>(std::min(left, chunk_));
     const Stopwatch reading;
-    if (auto done = read_chunk(rays); !done) return Failure{done.error(), invalid_input};
+    if (auto done = read_chunk(questions, size); !done) return Failure{done.error(), invalid_input};
     stats_.load_seconds += reading.seconds();
     if (auto done = trace_chunk(tracer); !done) return Failure{done.error(), failed};
     const Stopwatch writing;
     if (auto done = append_chunk(file); !done) return Failure{done.error(), failed};
     stats_.write_seconds += writing.seconds();
-    traced_ += rays_.size();
-  } while (traced_ < rays.size());
-  lost_ = rays.lost();
+    traced_ += size;
+  } while (traced_ < questions.size());
+  if (questions.rays) lost_ = questions.rays->lost();
   return std::nullopt;
 }
 
 Status Tracing::trace_chunk(Tracer& tracer) {
   const std::size_t size = rays_.size();
-  switch (command_.answer) {
+  switch (kind_) {
     case HitKind::closest:
       hits_.resize(size);
       return tracer.closest(rays_, hits_);
@@ -204,7 +279,33 @@ Status Tracing::trace_chunk(Tracer& tracer) {
     case HitKind::chord:
       lengths_.resize(size);
       return tracer.chord(rays_, lengths_);
+    case HitKind::nearest:
+    case HitKind::members:
+    case HitKind::pairs:
+      return ask_chunk(tracer);
   }
+  return {};
+}
+
+/// The same about points and pairs.
+Status Tracing::ask_chunk(Tracer& tracer) {
+  if (kind_ == HitKind::nearest) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const std::size_t k = command_.nearest.value_or(1);
+    distances_.resize(points_.size() * k);
+    ids_.resize(points_.size() * k);
+    return tracer.nearest(points_, k, command_.within.value_or(infinity),
+                          {distances_.data(), ids_.data()});
+  }
+  if (kind_ == HitKind::members) {
+    auto found = tracer.within(points_, command_.within.value_or(0));
+    if (!found) return found.error();
+    members_ = std::move(found).value();
+    return {};
+  }
+  auto found = tracer.pairs(command_.pairs.value_or(0));
+  if (!found) return found.error();
+  pairs_ = std::move(found).value();
   return {};
 }
 
@@ -213,7 +314,7 @@ Status Tracing::append_chunk(HitFile& file) {
   const auto count_hits = [this](const auto& answers, const auto& is_hit) {
     hit_count_ += static_cast<std::uint64_t>(std::count_if(answers.begin(), answers.end(), is_hit));
   };
-  switch (command_.answer) {
+  switch (kind_) {
     case HitKind::closest:
       count_hits(hits_, [](const TracedHit& hit) { return hit.id != no_primitive; });
       return file.append(hits_);
@@ -229,6 +330,15 @@ Status Tracing::append_chunk(HitFile& file) {
     case HitKind::chord:
       count_hits(lengths_, [](double length) { return length > 0; });
       return file.append(lengths_);
+    case HitKind::nearest:
+      count_hits(ids_, [](std::int32_t id) { return id != no_primitive; });
+      return file.append(distances_, ids_);
+    case HitKind::members:
+      hit_count_ += members_.id.size();
+      return file.append(members_, traced_);
+    case HitKind::pairs:
+      hit_count_ += pairs_.gap.size();
+      return file.append(pairs_);
   }
   return {};
 }
@@ -262,10 +372,19 @@ void Tracing::tell_end() const {
                     command_.rays, counted(lost_, "ray")));
   }
   report_.detail(fmt::format("written in {:.3f} s", stats_.write_seconds));
-  report_.note(fmt::format("boule: {}: {}, {}, {:.2f} s, {:.1f} Mray/s ({}, {})", command_.output,
-                           counted(stats_.rays, "ray"), counted(hit_count_, "hit"),
-                           stats_.work_seconds, mrays_per_s(stats_), stats_.isa,
-                           counted(stats_.threads, "thread")));
+  const std::string how = fmt::format("({}, {})", stats_.isa, counted(stats_.threads, "thread"));
+  if (kind_ == HitKind::pairs) {
+    report_.note(fmt::format("boule: {}: {}, {:.2f} s {}", command_.output,
+                             counted(hit_count_, "pair"), stats_.work_seconds, how));
+  } else if (!command_.points.empty()) {
+    report_.note(fmt::format("boule: {}: {}, {} near them, {:.2f} s {}", command_.output,
+                             counted(traced_, "point"), counted(hit_count_, "object"),
+                             stats_.work_seconds, how));
+  } else {
+    report_.note(fmt::format("boule: {}: {}, {}, {:.2f} s, {:.1f} Mray/s {}", command_.output,
+                             counted(stats_.rays, "ray"), counted(hit_count_, "hit"),
+                             stats_.work_seconds, mrays_per_s(stats_), how));
+  }
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "render/apps/cli/options/option_kinds.h"
 #include "render/apps/cli/options/pack_options.h"
 #include "render/apps/cli/options/part_options.h"
+#include "render/apps/cli/options/trace_options.h"
 #include "render/apps/cli/options/usage.h"
 #include "render/apps/cli/options/view_options.h"
 #include "render/apps/job/look_values.h"
@@ -178,38 +179,9 @@ void add_view(CLI::App& app, ViewCommand& view) {
   add_machine_options(app, command);
 }
 
-/// What is asked of the rays, in place of their nearest hits.
-void add_answers(CLI::App& app, TraceCommand& command) {
-  CLI::Option* options[4] = {};
-  std::size_t count = 0;
-  const auto add = [&](const char* name, HitKind answer, const char* help) {
-    CLI::Option* const option = app.add_flag_callback(
-        name, [&command, answer] { command.answer = answer; }, help);
-    for (std::size_t i = 0; i < count; ++i) option->excludes(options[i]);
-    options[count++] = option;
-  };
-  add("--any-hit", HitKind::any,
-      "Only whether anything is met with tmin < t <= tmax: N bytes (uint8), 1 or 0");
-  add("--all-hits", HitKind::all,
-      "All crossings, in order: records of ray (int64, its row), t, id, entering (bool)");
-  add("--count", HitKind::count, "The number of crossings of each ray: N int64");
-  add("--chord", HitKind::chord,
-      "The length of each ray inside the union of all spheres, in units of t: N float64");
-  add_whole(app, "--limit", command.limit, std::size_t{0}, std::size_t{max_primitives} * 2,
-            "With --all-hits: the first N crossings of each ray (all)");
-  app.get_option("--limit")->needs("--all-hits");
-}
-
 void add_trace(CLI::App& app, TraceCommand& command) {
   add_scene(app, command.scene);
-  start_group(app, "Rays");
-  app.add_option(
-         "--rays", command.rays,
-         "Rays, .npy: float32 or float64, N x 8: origin x y z, tmin, direction x y z, tmax; "
-         "or N x 10: source (an id, or -1) and inside (0 or 1), too")
-      ->required()
-      ->type_name("RAYS.npy");
-  add_answers(app, command);
+  add_questions(app, command);
   add_load_limit(app, command.load_limit);
   add_scene_choices(app, command, heading::work);
   add_shape_options(app, command.look);

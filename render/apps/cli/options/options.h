@@ -110,9 +110,16 @@ struct ViewCommand {
 /// `boule trace`.
 struct TraceCommand : SceneJob, RunOptions {
   std::string rays;
-  HitKind answer = HitKind::closest;
-  std::optional<std::size_t> limit;  ///< crossings of a ray
+  HitKind answer = HitKind::closest;  ///< about the rays
+  std::optional<std::size_t> limit;   ///< crossings of a ray
+  std::string points;                 ///< empty: there are none
+  std::optional<std::size_t> nearest;
+  bool inside = false;
+  std::optional<double> within, pairs;
 };
+
+/// What is asked: about rays, points or spheres.
+HitKind kind_of(const TraceCommand& command);
 
 /// `boule info`.
 struct InfoCommand : SceneJob {
