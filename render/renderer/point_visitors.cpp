@@ -54,27 +54,81 @@ const std::vector<std::int32_t>& MemberVisitor::finish() {
   return ids_;
 }
 
-void PairVisitor::start(const Sphere& sphere, std::int32_t id, std::vector<SpherePair>& pairs) {
-  point_ = vec_cast<double>(sphere.center);
-  radius_ = std::fabs(sphere.radius);
-  constexpr double share = 0x1p-50;  // for the rounding of the sum
-  limit_ = (gap_ + double{radius_}) + share * (std::fabs(gap_) + double{radius_});
-  own_.clear();
-  for_copies(geometry_, id, [this](std::int32_t each) { own_.push_back(each); });
-  pairs_ = &pairs;
+BlockBounds bounds_of(const SphereBlock& spheres) {
+  Vec3d sum{};
+  double count = 0, radius = 0;
+  for (std::size_t k = 0; k < bvh_leaf_size; ++k) {
+    if (std::isnan(spheres.radius[k])) continue;
+    sum = sum + vec_cast<double>(ball_in(spheres, k).center);
+    count += 1;
+  }
+  const Vec3d middle = sum * (1 / count);
+  for (std::size_t k = 0; k < bvh_leaf_size; ++k) {
+    if (std::isnan(spheres.radius[k])) continue;
+    const Ball ball = ball_in(spheres, k);
+    const Vec3d way = vec_cast<double>(ball.center) - middle;
+    radius = std::max(radius, std::sqrt(dot(way, way)) + double{ball.radius});
+  }
+  return {middle, count > 0 ? radius : std::numeric_limits<double>::quiet_NaN()};
 }
 
-void PairVisitor::meet(const Ball& ball, std::int32_t id) {
-  const bool comes_after = id > own_.front() || geometry_.lacks_copies();
-  const Ball both{ball.center, ball.radius, radius_};
-  if (!comes_after || !is_within(both, point_, gap_)) return;
-  double gap = std::numeric_limits<double>::quiet_NaN();
-  for_copies(geometry_, id, [&](std::int32_t second) {
-    for (const std::int32_t first : own_) {
-      if (first >= second) continue;
-      if (std::isnan(gap)) gap = find_distance(both, point_);
-      pairs_->push_back({first, second, gap});
+/// The distance within which the pairs of something with this radius are.
+double PairFinder::limit_of(double radius) const {
+  constexpr double share = 0x1p-45;  // for rounding
+  return radius + gap_ + share * (radius + std::fabs(gap_));
+}
+
+/// Finds the blocks, from this one on, with spheres that may be near one of this block.
+void PairFinder::gather(std::size_t block) {
+  const auto [middle, radius] = bounds_[block];
+  near_.clear();
+  blocks_.visit_near(
+      middle, [limit = limit_of(radius)] { return limit; },
+      [&](std::size_t index) {
+        if (index >= block) near_.push_back({index, blocks_.at(index)});
+      });
+}
+
+void PairFinder::find(std::size_t block, std::vector<SpherePair>& pairs) {
+  if (std::isnan(bounds_[block].radius)) return;
+  const PlacedBlock own = blocks_.at(block);
+  const SphereBlock& spheres = own.spheres();
+  gather(block);
+  for (std::size_t k = 0; k < bvh_leaf_size; ++k) {
+    if (std::isnan(spheres.radius[k])) continue;
+    const Ball ball = ball_in(spheres, k);
+    for (const Near& near : near_) {
+      const auto& [middle, radius] = bounds_[near.index];
+      const Vec3d way = vec_cast<double>(ball.center) - middle;
+      const double reach = limit_of(double{ball.radius} + radius);
+      if (reach >= 0 && dot(way, way) <= reach * reach)
+        pair_up(ball, own.id(k), near, near.index == block ? k : 0, pairs);
     }
+  }
+}
+
+/// Pairs a sphere with those of a block, from one slot on. The first slot may be its own: then only
+/// copies of it make pairs.
+void PairFinder::pair_up(const Ball& ball, std::int32_t id, const Near& near,
+                         std::size_t first_slot, std::vector<SpherePair>& pairs) {
+  const Vec3d point = vec_cast<double>(ball.center);
+  const SphereBlock& block = near.block.spheres();
+  const BlockDistances distances(block, point, limit_of(double{ball.radius}));
+  for (std::size_t k = first_slot; k < bvh_leaf_size; ++k) {
+    if (!distances.may_be_near(k)) continue;
+    Ball both = ball_in(block, k);
+    both.more = ball.radius;
+    if (is_within(both, point, gap_)) add(id, near.block.id(k), find_distance(both, point), pairs);
+  }
+}
+
+void PairFinder::add(std::int32_t a, std::int32_t b, double gap,
+                     std::vector<SpherePair>& pairs) const {
+  for_copies(geometry_, a, [&](std::int32_t one) {
+    for_copies(geometry_, b, [&](std::int32_t other) {
+      const bool is_new = a == b ? one < other : one != other;
+      if (is_new) pairs.push_back({std::min(one, other), std::max(one, other), gap});
+    });
   });
 }
 

@@ -242,35 +242,38 @@ Result<SpherePairs> Tracer::pairs(double gap) {
   if (std::isnan(gap)) return Diagnostic::about("gap", "must be a number, is nan");
   const FloatEnvironment environment;
   const Stopwatch watch;
-  const std::uint64_t fixed = (std::uint64_t{geometry_.sphere_count()} + 1) * sizeof(std::size_t);
+  const GeometryView view = geometry_.view();
+  const std::size_t blocks = SphereBlocks(view).size();
+  const std::uint64_t fixed = (std::uint64_t{geometry_.sphere_count()} + 1) * sizeof(std::size_t) +
+                              std::uint64_t{blocks} * sizeof(BlockBounds);
   if (auto done = check_memory(fixed, "the pairs of spheres need"); !done) return done.error();
   Room room(fixed, 3 * sizeof(SpherePair));
-  const GeometryView view = geometry_.view();
   constexpr std::size_t blocks_of_piece = 64;
-  const SphereBlocks blocks(view);
   std::vector<std::vector<SpherePair>> pieces;
-  const std::size_t count = (blocks.size() + blocks_of_piece - 1) / blocks_of_piece;
-  const auto make = [&] { pieces.resize(count); };
+  std::vector<BlockBounds> bounds;
+  const auto make = [&] {
+    pieces.resize((blocks + blocks_of_piece - 1) / blocks_of_piece);
+    bounds.reserve(blocks);
+    for (std::size_t block = 0; block < blocks; ++block)
+      bounds.push_back(bounds_of(SphereBlocks(view).at(block).spheres()));
+  };
   if (auto done = diagnose(std::cref(make)); !done) return done.error();
   const auto work = [&](std::size_t index) {
-    PairVisitor visitor(geometry_, gap);
-    PointSearch<PairVisitor> search(view, visitor);
+    PairFinder finder(geometry_, view, bounds, gap);
     std::vector<SpherePair> found;
-    const std::size_t end = std::min(blocks.size(), (index + 1) * blocks_of_piece);
-    for (std::size_t block = index * blocks_of_piece; block < end; ++block) {
-      blocks.visit(block, [&](const Sphere& sphere, std::int32_t id) {
-        // A damaged packed file may name other ids.
-        if (room.is_full() || static_cast<std::uint32_t>(id) >= geometry_.sphere_count()) return;
-        const std::size_t before = found.size();
-        visitor.start(sphere, id, found);
-        search.search(visitor.point());
-        if (!room.take(found.size() - before)) found.clear();
-      });
+    const std::size_t end = std::min(blocks, (index + 1) * blocks_of_piece);
+    for (std::size_t block = index * blocks_of_piece; block < end && !room.is_full(); ++block) {
+      const std::size_t before = found.size();
+      finder.find(block, found);
+      if (!room.take(found.size() - before)) found.clear();
     }
+    // A damaged packed file may name other ids.
+    std::erase_if(found, [this](const SpherePair& pair) {
+      return pair.first < 0 || static_cast<std::size_t>(pair.second) >= geometry_.sphere_count();
+    });
     pieces[index] = found;  // a copy, which takes no more than it needs
   };
-  if (auto done = run_points(blocks.size(), blocks_of_piece, std::cref(work)); !done)
-    return done.error();
+  if (auto done = run_points(blocks, blocks_of_piece, std::cref(work)); !done) return done.error();
   if (auto done = room.check("pairs of spheres"); !done) return done.error();
   SpherePairs all;
   const auto fill = [&] { gather(pieces, geometry_.sphere_count(), all); };

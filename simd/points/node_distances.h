@@ -31,7 +31,7 @@ class NearNodes {
  public:
   NearNodes(const BvhView& bvh, const Vec3d& point) : nodes_(bvh.nodes), point_(point) {
     size_ = std::fabs(point.x) + std::fabs(point.y) + std::fabs(point.z) + double{bvh.extent};
-    entries_[0] = {-std::numeric_limits<double>::infinity(), 0, 0};
+    entries_[0] = {-std::numeric_limits<double>::infinity(), 0};
     count_ = 1;
   }
 
@@ -48,7 +48,6 @@ class NearNodes {
   /// Of the one that was taken.
   [[nodiscard]] bool is_leaf() const { return (current_.child & leaf_bit) != 0; }
   [[nodiscard]] std::uint32_t index() const { return index_of(current_.child); }
-  [[nodiscard]] std::size_t leaf_size() const { return current_.size; }
 
   /// Puts its children within the limit in its place. Precondition: it is a node.
   void open(double limit) {
@@ -58,7 +57,7 @@ class NearNodes {
     const double most = limit_key(limit, size_);
     std::size_t nearest = count_;
     for (std::size_t k = 0; k < node.size; ++k) {
-      entries_[count_] = {keys[k], node.child[k], node.leaf_size[k]};
+      entries_[count_] = {keys[k], node.child[k]};
       if (keys[k] < entries_[nearest].key) nearest = count_;
       count_ += keys[k] <= most ? 1 : 0;
     }
@@ -69,7 +68,6 @@ class NearNodes {
   struct Entry {
     double key;
     std::uint32_t child;
-    std::uint32_t size;
   };
 
   void find_keys(const BvhNode& node, double* keys) const {
@@ -93,8 +91,22 @@ class NearNodes {
   std::array<Entry, bvh_max_depth*(bvh_width - 1) + 2> entries_;
 };
 
-/// Which spheres of a block may be within a limit of a point.
+/// Calls visit(leaf) for the leaves of a tree whose box is within limit() of a point, the nearest
+/// first as far as boxes tell. The limit may fall from call to call.
+template <class Limit, class Visit>
+void visit_leaves(const BvhView& bvh, const Vec3d& point, const Limit& limit, const Visit& visit) {
+  if (bvh.size == 0) return;
+  NearNodes nodes(bvh, point);
+  while (nodes.take(limit())) {
+    if (nodes.is_leaf()) {
+      visit(nodes.index());
+    } else {
+      nodes.open(limit());
+    }
+  }
+}
 
+/// Which spheres of a block may be within a limit of a point.
 class BlockDistances {
  public:
   BlockDistances(const SphereBlock& block, const Vec3d& point, double limit) {

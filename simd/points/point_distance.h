@@ -1,7 +1,11 @@
 #pragma once
 
+#include <cmath>
+#include <cstddef>
+
 #include "core/math/vec.h"
 #include "core/scene/primitive.h"
+#include "simd/abi/bvh.h"
 
 namespace boule {
 
@@ -11,6 +15,11 @@ struct Ball {
   float radius = 1;
   float more = 0;
 };
+
+/// The sphere in a slot of a block. Its radius counts by its absolute value.
+inline Ball ball_in(const SphereBlock& block, std::size_t k) {
+  return {{block.center_x[k], block.center_y[k], block.center_z[k]}, std::fabs(block.radius[k])};
+}
 
 /// The distance of a point from a primitive's surface is negative inside. A ball and a capsule hold
 /// their surface; a plane bounds the half-space behind it, and its normal points outside. Inputs

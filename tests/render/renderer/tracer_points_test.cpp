@@ -337,13 +337,13 @@ TEST(TracerPoints, SharedGroupsAnswerAsWrittenOut) {
   CaseRandom random(83);
   Group group;
   group.name = "part";
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 1000; ++i) {
     const Vec3d center = point_in(random, 1);
     group.spheres.push_back(
-        {vec_cast<float>(center), static_cast<float>(random.uniform(0.02, 0.2))});
+        {vec_cast<float>(center), static_cast<float>(random.uniform(0.02, 0.06))});
   }
   shared.groups.push_back(group);
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < 200; ++i) {
     Instance instance;
     instance.group = 0;
     instance.translate = vec_cast<float>(point_in(random, 5));
@@ -353,7 +353,7 @@ TEST(TracerPoints, SharedGroupsAnswerAsWrittenOut) {
   }
   Scene written = shared;
   expand_instances(written);
-  ASSERT_EQ(written.spheres.size(), 60U * 300U);
+  ASSERT_EQ(written.spheres.size(), 200U * 1000U);
   ASSERT_TRUE(groups_to_share(shared));
   std::vector<Vec3d> points;
   for (int i = 0; i < 500; ++i) points.push_back(point_in(random, 7));
