@@ -142,7 +142,7 @@ def _flat(arrays, shape):
 def _number(name, value):
     try:
         number = float(value)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         number = math.nan
     if math.isnan(number) or isinstance(value, (str, bool)):
         raise error(name, f"expected a number, got {value!r}")

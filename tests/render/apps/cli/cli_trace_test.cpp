@@ -340,8 +340,9 @@ TEST_F(Trace, HelpNamesEveryOption) {
   EXPECT_EQ(run.exit_code, 0);
   EXPECT_THAT(run.err, IsEmpty());
   for (const char* option :
-       {"--rays", "--output", "--any-hit", "--all-hits", "--count", "--chord", "--isa", "--solver",
-        "--threads", "--progress", "--stats", "--quiet", "--verbose"}) {
+       {"--rays", "--points", "--nearest", "--inside", "--within", "--pairs", "--output",
+        "--any-hit", "--all-hits", "--count", "--chord", "--isa", "--solver", "--threads",
+        "--progress", "--stats", "--quiet", "--verbose"}) {
     EXPECT_THAT(run.out, HasSubstr(option));
   }
 }

@@ -130,6 +130,20 @@ class Caller:
         given = self.random.sample(sorted(keys), self.random.randint(0, 3))
         call(self.array(count, 3), self.array(count, 3), **{key: keys[key] for key in given})
 
+    def points(self):
+        count = self.one_of(0, 1, 7, 300)
+        tracer = self.random.choice(self.tracers)
+        calls = {
+            tracer.nearest: {"k": self.one_of(1, 3, self.value()), "limit": self.value()},
+            tracer.inside: {"first": self.one_of(True, self.value())},
+            tracer.within: {"radius": self.one_of(0.5, self.array(count), self.value())},
+        }
+        call = self.random.choice([*calls, tracer.pairs])
+        if call == tracer.pairs:
+            call(self.one_of(0, -0.1, self.value()))
+        else:
+            call(self.array(count, 3), **calls[call])
+
     def make_object(self):
         name = self.random.choice([name for name in boule.__all__ if name[0].isupper()])
         cls = getattr(boule, name)
@@ -234,7 +248,7 @@ class Caller:
         list(boule.series(frames, **self.keys(["look", "color", "radius", "select", "floor"], 1)))
 
     CALLS = (
-        (closest, 20), (any, 10), (crossings, 20), (make_tracer, 12), (make_object, 20), (make_spheres, 10),
+        (closest, 20), (any, 10), (crossings, 20), (points, 15), (make_tracer, 12), (make_object, 20), (make_spheres, 10),
         (render, 6), (use_picture, 4), (make_pixels, 4), (spoil_scene, 3), (make_particles, 4),
         (read, 3), (move, 10), (copy, 8), (camera, 6), (series, 6),
     )  # fmt: skip
