@@ -180,3 +180,17 @@ def test_too_many_results_are_refused(cloud):
     _, _, tracer = cloud
     with pytest.raises(MemoryError, match="MiB of memory"):
         tracer.nearest(np.zeros((1000, 3)), 2**31 - 1)
+
+
+def test_too_many_pairs_are_refused():
+    import resource
+
+    tracer = boule.Tracer(np.zeros((20_000, 3)), np.linspace(1, 2, 20_000))
+    limits = resource.getrlimit(resource.RLIMIT_AS)
+    resource.setrlimit(resource.RLIMIT_AS, (1 << 30, limits[1]))
+    try:
+        with pytest.raises(MemoryError, match="pairs of spheres need"):
+            tracer.pairs()
+        assert 0 < len(tracer.pairs(-3.999).gap) < 1000
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, limits)
