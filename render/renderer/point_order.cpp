@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/scene/number_text.h"
-#include "render/renderer/point_columns.h"
+#include "render/renderer/point_order.h"
 #include "simd/points/point_distance.h"
 
 namespace boule {

@@ -10,6 +10,7 @@
 #include "core/scene/number_text.h"
 #include "render/frame/stopwatch.h"
 #include "render/memory/available_memory.h"
+#include "render/renderer/point_order.h"
 #include "render/renderer/point_visitors.h"
 #include "render/renderer/tracer.h"
 #include "simd/points/point_search.h"
