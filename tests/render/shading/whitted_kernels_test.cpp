@@ -112,10 +112,11 @@ void WhittedKernels::check_scattering(bool sparse) {
   GoingOnBuffer buffer;
   buffer.resize(2 * count);
   GoingOn spawned = buffer.view();
-  kernels->scatter_rays(
-      {scatters.data(), surfaces.stream(), lobes.data(), hits.view().id,
-       scene->geometry.view().planes.first_id, throughput.view(), sample.data(), count},
-      spawned);
+  kernels->scatter_rays({scatters.data(), surfaces.stream(), lobes.data(), hits.view().id,
+                         scene->geometry.view().planes.first_id,
+                         static_cast<std::uint32_t>(scene->geometry.view().planes.size),
+                         throughput.view(), sample.data(), count},
+                        spawned);
   EXPECT_GT(sending, sparse ? count / 16 : count / 4);
   EXPECT_GT(expected.size(), sending);  // glass sends two
   expect_same_rays(
