@@ -9,7 +9,7 @@ trap 'rm -rf "$work"' EXIT
 failures=0
 mkdir -p "$work"/{docs,scenes,bench}
 cp "$source"/{bootstrap.sh,CMakePresets.json} "$work"
-cp "$source"/scenes/{first_light.toml,sphereflake.npy,barrel.exr,double_gauss_50mm.lens,crambin.xyz,disc.csv} "$work/scenes"
+cp "$source"/scenes/{first_light.toml,sphereflake.npy,barrel.exr,double_gauss_50mm.lens,crambin.xyz,disc.csv,bilayer.data} "$work/scenes"
 echo 'boule_bench(bench_one' >"$work/bench/CMakeLists.txt"
 
 # expect RESULT TEXT [WORDS]: the page with this text passes, or fails with these words.

@@ -990,6 +990,7 @@ def series(
     bond_radius: float | None = ...,
     bond_color: str | None = ...,
     cell_edges: bool = ...,
+    axes: bool = ...,
     arrows: str | Sequence[str] | None = ...,
     arrow_scale: float | None = ...,
     select: str | None = ...,

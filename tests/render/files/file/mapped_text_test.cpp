@@ -94,7 +94,8 @@ TEST(MappedText, UnpacksAllMembersAndFrames) {
 
 TEST(MappedText, RefusesDamage) {
   for (const std::string& packed : {gzip_hello, zstd_hello, bzip2_hello, xz_hello}) {
-    for (std::size_t size = 4; size < packed.size(); ++size) {
+    const std::size_t mark = packed == xz_hello ? 6 : 4;  // what tells the packer
+    for (std::size_t size = mark; size < packed.size(); ++size) {
       EXPECT_THAT(text_of(packed.substr(0, size)), HasSubstr("are damaged: the file ends before"));
     }
     std::string changed = packed;
