@@ -35,8 +35,14 @@ std::string short_name(const CLI::Option& option) {
 
 /// The required options and positionals that are not there.
 std::vector<const CLI::Option*> missing_options(const CLI::App& command) {
-  return command.get_options(
-      [](const CLI::Option* option) { return option->get_required() && option->count() == 0; });
+  // Of what trace can be asked about, rays are the most usual.
+  const auto is_question = [&](const CLI::Option* option) {
+    return option->get_name() == "--rays" && command.count("--points") == 0 &&
+           command.count("--pairs") == 0;
+  };
+  return command.get_options([&](const CLI::Option* option) {
+    return option->count() == 0 && (option->get_required() || is_question(option));
+  });
 }
 
 /// The options of a command, those that must be there first: they are the likeliest to be meant.
