@@ -3,12 +3,11 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/math/vec.h"
-#include "render/files/file/input_file.h"
-#include "render/files/file/npy_header.h"
+#include "render/files/trace_file/row_file.h"
 
 namespace boule {
 
@@ -21,7 +20,7 @@ class PointFile {
   static Result<PointFile> open(const std::string& path);
 
   /// The number of points in the file.
-  [[nodiscard]] std::uint64_t size() const { return size_; }
+  [[nodiscard]] std::uint64_t size() const { return rows_.rows(); }
 
   /// Measures points from this one: it is subtracted in double.
   void count_from(const Vec3d& zero) { zero_ = zero; }
@@ -30,14 +29,10 @@ class PointFile {
   Status read(std::span<Vec3d> points);
 
  private:
-  PointFile(std::string path, InputFile file, const NpyHeader& header);
+  explicit PointFile(RowFile rows) : rows_(std::move(rows)) {}
 
-  std::string path_;
-  InputFile file_;
-  std::uint64_t size_;
-  std::size_t width_;  ///< bytes of a number
+  RowFile rows_;
   Vec3d zero_{};
-  std::vector<unsigned char> rows_;  ///< of one read, as in the file
 };
 
 }  // namespace boule

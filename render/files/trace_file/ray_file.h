@@ -3,14 +3,13 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "core/base/error.h"
 #include "core/math/ray.h"
 #include "core/math/vec.h"
 #include "core/scene/scene.h"
-#include "render/files/file/input_file.h"
-#include "render/files/file/npy_header.h"
+#include "render/files/trace_file/row_file.h"
 
 namespace boule {
 
@@ -26,7 +25,7 @@ class RayFile {
   static Result<RayFile> open(const std::string& path);
 
   /// The number of rays in the file.
-  [[nodiscard]] std::uint64_t size() const { return size_; }
+  [[nodiscard]] std::uint64_t size() const { return rows_.rows(); }
 
   /// Measures the origins of rays from this point: it is subtracted in double.
   void count_from(const Vec3d& zero) { zero_ = zero; }
@@ -42,21 +41,16 @@ class RayFile {
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
 
  private:
-  RayFile(std::string path, InputFile file, const NpyHeader& header);
+  explicit RayFile(RowFile rows) : rows_(std::move(rows)) {}
   template <class Number>
   Result<Ray> decode(const unsigned char* row);
   Status read_source(double source, double inside, Ray& ray) const;
 
-  std::string path_;
-  InputFile file_;
-  std::uint64_t size_;
-  std::size_t columns_;
-  bool is_double_;
+  RowFile rows_;
   Vec3d zero_;
   std::size_t ids_ = max_primitives;
   std::uint64_t read_ = 0;  ///< number of rays read before
   std::uint64_t lost_ = 0;
-  std::vector<unsigned char> rows_;  ///< of one read, as in the file
 };
 
 }  // namespace boule
