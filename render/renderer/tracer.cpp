@@ -14,15 +14,12 @@
 #include "render/renderer/trace_worker.h"
 
 namespace boule {
-namespace {
 
-Status wrong_room(std::size_t rays, std::size_t results) {
-  if (results == rays) return {};
-  return Diagnostic::of("there are " + std::to_string(rays) + " rays, but room for " +
+Status Tracer::check_room(const char* what, std::size_t asked, std::size_t results) {
+  if (results == asked) return {};
+  return Diagnostic::of("there are " + std::to_string(asked) + " " + what + ", but room for " +
                         std::to_string(results) + " results");
 }
-
-}  // namespace
 
 Diagnostic Tracer::moved_away() { return Diagnostic::of("the tracer was moved away"); }
 
@@ -146,42 +143,47 @@ Status Tracer::check_sources(const RayView& rays) const {
 
 Status Tracer::run(const RayView& rays, std::size_t results, const Body& body) {
   if (workers_.empty()) return moved_away();
-  if (auto done = wrong_room(rays.size(), results); !done) return done;
+  if (auto done = check_room("rays", rays.size(), results); !done) return done;
   if (auto done = check_sources(rays); !done) return done;
   const FloatEnvironment environment;
   const Stopwatch watch;
-  Status status = run_blocks(rays, body);
+  Status status = run_rays(rays, body);
   trace_seconds_ += watch.seconds();
   return status;
 }
 
 /// Calls `body` for each block of the rays, loaded by the worker. Closures are passed by reference:
 /// a copy takes memory, and can throw.
-Status Tracer::run_blocks(const RayView& rays, const Body& body) {
-  std::atomic<std::size_t> done{0};
+Status Tracer::run_rays(const RayView& rays, const Body& body) {
   const std::size_t all = rays.size();
-  const auto report = [&](double share) {
-    if (options_.progress) options_.progress({share, done});
-  };
+  std::atomic<std::size_t> done{0};
   const auto work = [&](unsigned index, std::size_t block) {
     const std::size_t first = block * rays_of_stream;
-    const std::size_t count = std::min(rays_of_stream, all - first);
     TraceWorker& mine = worker(index);
-    mine.load(count, [&](std::size_t k) { return rays.at(first + k); });
+    mine.load(std::min(rays_of_stream, all - first),
+              [&](std::size_t k) { return rays.at(first + k); });
     body(mine, first);
-    done += count;
-    if (index == 0) report(static_cast<double>(done) / static_cast<double>(all));
   };
-  Status status = scheduler_.run(blocks_of(all), std::cref(work), options_.cancel);
+  Status status = run_blocks({all, rays_of_stream}, std::cref(work), done);
   rays_ += done;
   if (!status) return status;
-  if (done != all) return Diagnostic::of("tracing was cancelled");
-  const auto end = [&] { report(1); };
+  const auto end = [&] {
+    if (options_.progress) options_.progress({1.0, done});
+  };
   return diagnose(std::cref(end));
 }
 
-std::size_t Tracer::blocks_of(std::size_t rays) {
-  return rays / rays_of_stream + (rays % rays_of_stream != 0 ? 1 : 0);
+Status Tracer::run_blocks(const Blocks& blocks, const BlockWork& work,
+                          std::atomic<std::size_t>& done) {
+  const auto body = [&](unsigned index, std::size_t block) {
+    work(index, block);
+    done += std::min(blocks.size, blocks.all - block * blocks.size);
+    if (index == 0 && options_.progress)
+      options_.progress({static_cast<double>(done) / static_cast<double>(blocks.all), done});
+  };
+  Status status = scheduler_.run(blocks.count(), std::cref(body), options_.cancel);
+  if (status && done != blocks.all) return Diagnostic::of("tracing was cancelled");
+  return status;
 }
 
 TraceWorker& Tracer::worker(unsigned index) {

@@ -143,6 +143,13 @@ class Tracer {
   /// Answers the rays that a worker has loaded: those of the call from `first` on.
   using Body = std::function<void(TraceWorker& worker, std::size_t first)>;
 
+  /// Things in blocks of one size.
+  struct Blocks {
+    std::size_t all, size;
+    [[nodiscard]] std::size_t count() const { return all / size + (all % size != 0 ? 1 : 0); }
+  };
+  using BlockWork = std::function<void(unsigned worker, std::size_t block)>;
+
   /// Answers points, the block-th block of the call.
   using PointBody = std::function<void(const PointRows& rows, std::size_t block)>;
 
@@ -151,6 +158,8 @@ class Tracer {
   Tracer(Scene scene, const std::optional<std::vector<ShownGroup>>& groups,
          const TraceOptions& options, const KernelTable& kernels);
   static Diagnostic moved_away();
+  /// An error unless there is a result for each of the things that are `asked`. `what`: their name.
+  static Status check_room(const char* what, std::size_t asked, std::size_t results);
   [[nodiscard]] TraceTarget target() const;
   Status find_any(const RayView& rays, std::span<std::uint8_t> met);
   [[nodiscard]] Status check_sources(const RayView& rays) const;
@@ -158,14 +167,14 @@ class Tracer {
   template <class Item, class MakeList>
   Result<RayLists<Item>> list_items(const RayView& rays, const std::string& name,
                                     const MakeList& make_list);
-  Status run_blocks(const RayView& rays, const Body& body);
+  Status run_rays(const RayView& rays, const Body& body);
   Status run_points(const PointColumns& points, const PointBody& body);
-  Status run_points(std::size_t all, std::size_t size,
-                    const std::function<void(std::size_t)>& work);
+  /// Runs work(worker, block) for all blocks and tells the progress; `done` counts the things of
+  /// the blocks that have ended. An error if it was cancelled.
+  Status run_blocks(const Blocks& blocks, const BlockWork& work, std::atomic<std::size_t>& done);
   [[nodiscard]] bool is_solid(std::int32_t id) const { return !geometry_.is_plane({0, id}); }
   /// Rays per stream: enough to fill packets, and few enough to stay in the cache.
   static constexpr std::size_t rays_of_stream = 1024;
-  static std::size_t blocks_of(std::size_t rays);
   TraceWorker& worker(unsigned index);
 
   TraceOptions options_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "render/memory/available_memory.h"
+#include "render/renderer/result_room.h"
 #include "render/renderer/trace_worker.h"
 #include "render/renderer/tracer.h"
 
@@ -143,17 +144,15 @@ void spread(RayLists<Item>& lists, const Copy& copy) {
 template <class Item, class MakeList>
 Result<RayLists<Item>> Tracer::list_items(const RayView& rays, const std::string& name,
                                           const MakeList& make_list) {
-  // Each item is in its piece and in its columns at the same time.
-  constexpr std::uint64_t bytes_each = 2 * sizeof(Item);
-  const std::string of_rays = " of " + std::to_string(rays.size()) + " rays need";
-  const std::uint64_t room = available_memory();
+  const std::string of_rays = " of " + std::to_string(rays.size()) + " rays";
   const std::uint64_t offsets = (std::uint64_t{rays.size()} + 1) * sizeof(std::int64_t);
-  if (auto done = check_memory(offsets, "the " + name + of_rays); !done) return done.error();
+  if (auto done = check_memory(offsets, "the " + name + of_rays + " need"); !done)
+    return done.error();
   RayLists<Item> lists;
-  std::atomic<std::uint64_t> items{0};
+  ResultRoom room(offsets, 2 * sizeof(Item));
   const auto make = [&] {
     lists.offset.assign(rays.size() + 1, 0);
-    lists.pieces.resize(blocks_of(rays.size()));
+    lists.pieces.resize(Blocks{rays.size(), rays_of_stream}.count());
   };
   if (auto done = diagnose(std::cref(make)); !done) return done.error();
   const auto body = [&](TraceWorker& worker, std::size_t first) {
@@ -164,16 +163,12 @@ Result<RayLists<Item>> Tracer::list_items(const RayView& rays, const std::string
       list(worker, k, chords, found);
       lists.offset[first + k + 1] = static_cast<std::int64_t>(found.size() - before);
     });
-    items += found.size();
-    if (offsets + items * bytes_each > room) return;
+    if (!room.take(found.size())) return;
     lists.pieces[first / rays_of_stream] = found;  // a copy, which takes no more than it needs
   };
   if (auto done = run(rays, rays.size(), std::cref(body)); !done) return done.error();
-  const std::uint64_t bytes = offsets + items * bytes_each;
-  if (bytes > room) {
-    return Diagnostic::out_of_memory("the " + std::to_string(items) + " " + name + of_rays + " " +
-                                     memory_text(bytes) + ", there are " + memory_text(room));
-  }
+  if (auto done = room.check("the " + std::to_string(room.count()) + " " + name + of_rays); !done)
+    return done.error();
   std::partial_sum(lists.offset.begin(), lists.offset.end(), lists.offset.begin());
   return lists;
 }

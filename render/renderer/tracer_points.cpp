@@ -12,6 +12,7 @@
 #include "render/memory/available_memory.h"
 #include "render/renderer/point_order.h"
 #include "render/renderer/point_visitors.h"
+#include "render/renderer/result_room.h"
 #include "render/renderer/tracer.h"
 #include "simd/points/point_search.h"
 
@@ -30,34 +31,6 @@ Status check_radii(const RayNumbers& radius, std::size_t points) {
   }
   return {};
 }
-
-/// Results in pieces, which are refused before they exceed the memory.
-class Room {
- public:
-  /// `bytes`: taken anyway; `bytes_each`: of a result in its piece and in its columns.
-  Room(std::uint64_t bytes, std::uint64_t bytes_each) : bytes_(bytes), bytes_each_(bytes_each) {}
-
-  /// Whether so many results more have room.
-  bool take(std::size_t results) {
-    count_ += results;
-    return !is_full();
-  }
-  [[nodiscard]] bool is_full() const { return bytes() > available_; }
-  /// An error if there were too many. `name`: of the results.
-  [[nodiscard]] Status check(const std::string& name) const {
-    if (!is_full()) return {};
-    return Diagnostic::out_of_memory("the first " + std::to_string(count_) + " " + name + " need " +
-                                     memory_text(bytes()) + ", there are " +
-                                     memory_text(available_));
-  }
-
- private:
-  [[nodiscard]] std::uint64_t bytes() const { return bytes_ + count_ * bytes_each_; }
-
-  std::uint64_t bytes_, bytes_each_;
-  std::uint64_t available_ = available_memory();
-  std::atomic<std::uint64_t> count_{0};
-};
 
 /// The members of one block of points, in the order in which they were asked.
 struct MemberPiece {
@@ -110,26 +83,10 @@ void gather(std::vector<std::vector<SpherePair>>& pieces, std::size_t spheres, S
 
 }  // namespace
 
-/// Runs work(block) for all blocks of `size` things each, of which there are `all`.
-Status Tracer::run_points(std::size_t all, std::size_t size,
-                          const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> done{0};
-  const auto body = [&](unsigned index, std::size_t block) {
-    work(block);
-    done += std::min(size, all - block * size);
-    if (index == 0 && options_.progress)
-      options_.progress({static_cast<double>(done) / static_cast<double>(all), done});
-  };
-  Status status = scheduler_.run((all + size - 1) / size, std::cref(body), options_.cancel);
-  if (!status) return status;
-  if (done != all) return Diagnostic::of("tracing was cancelled");
-  return {};
-}
-
 /// Calls body(rows, block) for the blocks of all points.
 Status Tracer::run_points(const PointColumns& points, const PointBody& body) {
   static_assert(points_of_chunk % rays_of_stream == 0);
-  if (workers_.empty()) return Diagnostic::of("the tracer was moved away");
+  if (workers_.empty()) return moved_away();
   const FloatEnvironment environment;
   if (auto done = check_points(points); !done) return done;
   const Stopwatch watch;
@@ -140,13 +97,14 @@ Status Tracer::run_points(const PointColumns& points, const PointBody& body) {
     const auto make = [&] { order.make(points, first, count); };
     status = diagnose(std::cref(make));
     if (!status) break;
-    const auto work = [&](std::size_t block) {
+    const auto work = [&](unsigned, std::size_t block) {
       const std::size_t begin = block * rays_of_stream;
       const std::span rows = std::span<const std::uint32_t>(order.rows)
                                  .subspan(begin, std::min(rays_of_stream, count - begin));
       body({first, rows}, (first + begin) / rays_of_stream);
     };
-    status = run_points(count, rays_of_stream, std::cref(work));
+    std::atomic<std::size_t> done{0};
+    status = run_blocks({count, rays_of_stream}, std::cref(work), done);
   }
   trace_seconds_ += watch.seconds();
   return status;
@@ -176,9 +134,7 @@ Result<Members> Tracer::inside(const PointColumns& points) {
 }
 
 Status Tracer::first_inside(const PointColumns& points, std::span<std::int32_t> ids) {
-  if (ids.size() != points.size())
-    return Diagnostic::of("there are " + std::to_string(points.size()) + " points, but room for " +
-                          std::to_string(ids.size()) + " results");
+  if (auto done = check_room("points", points.size(), ids.size()); !done) return done;
   const GeometryView view = geometry_.view();
   const auto body = [&](const PointRows& rows, std::size_t) {
     MemberVisitor visitor(geometry_);
@@ -205,12 +161,12 @@ Result<Members> Tracer::within(const PointColumns& points, const RayNumbers& rad
       (std::uint64_t{points.size()} + 1) * (sizeof(std::int64_t) + sizeof(std::size_t));
   if (auto done = check_memory(fixed, "the members" + of_points + " need"); !done)
     return done.error();
-  Room room(fixed, 2 * sizeof(std::int32_t));
+  ResultRoom room(fixed, 2 * sizeof(std::int32_t));
   Members all;
   std::vector<MemberPiece> pieces;
   const auto make = [&] {
     all.offset.assign(points.size() + 1, 0);
-    pieces.resize(blocks_of(points.size()));
+    pieces.resize(Blocks{points.size(), rays_of_stream}.count());
   };
   if (auto done = diagnose(std::cref(make)); !done) return done.error();
   const GeometryView view = geometry_.view();
@@ -232,14 +188,16 @@ Result<Members> Tracer::within(const PointColumns& points, const RayNumbers& rad
     pieces[block] = {piece.rows, piece.ids};  // copies, which take no more than they need
   };
   if (auto done = run_points(points, std::cref(body)); !done) return done.error();
-  if (auto done = room.check("members" + of_points); !done) return done.error();
+  if (auto done = room.check("the first " + std::to_string(room.count()) + " members" + of_points);
+      !done)
+    return done.error();
   const auto fill = [&] { gather(pieces, all); };
   if (auto done = diagnose(std::cref(fill)); !done) return done.error();
   return all;
 }
 
 Result<SpherePairs> Tracer::pairs(double gap) {
-  if (workers_.empty()) return Diagnostic::of("the tracer was moved away");
+  if (workers_.empty()) return moved_away();
   if (std::isnan(gap)) return Diagnostic::about("gap", "must be a number, is nan");
   const FloatEnvironment environment;
   const Stopwatch watch;
@@ -248,22 +206,22 @@ Result<SpherePairs> Tracer::pairs(double gap) {
   const std::uint64_t fixed = (std::uint64_t{geometry_.sphere_count()} + 1) * sizeof(std::size_t) +
                               std::uint64_t{blocks} * sizeof(BlockBounds);
   if (auto done = check_memory(fixed, "the pairs of spheres need"); !done) return done.error();
-  Room room(fixed, 3 * sizeof(SpherePair));
-  constexpr std::size_t blocks_of_piece = 64;
+  ResultRoom room(fixed, 3 * sizeof(SpherePair));
+  const Blocks of_pieces{blocks, 64};
   std::vector<std::vector<SpherePair>> pieces;
   std::vector<BlockBounds> bounds;
   const auto make = [&] {
-    pieces.resize((blocks + blocks_of_piece - 1) / blocks_of_piece);
+    pieces.resize(of_pieces.count());
     bounds.reserve(blocks);
     for (std::size_t block = 0; block < blocks; ++block)
       bounds.push_back(bounds_of(SphereBlocks(view).at(block).spheres()));
   };
   if (auto done = diagnose(std::cref(make)); !done) return done.error();
-  const auto work = [&](std::size_t index) {
+  const auto work = [&](unsigned, std::size_t index) {
     PairFinder finder(geometry_, view, bounds, gap);
     std::vector<SpherePair> found;
-    const std::size_t end = std::min(blocks, (index + 1) * blocks_of_piece);
-    for (std::size_t block = index * blocks_of_piece; block < end && !room.is_full(); ++block) {
+    const std::size_t end = std::min(blocks, (index + 1) * of_pieces.size);
+    for (std::size_t block = index * of_pieces.size; block < end && !room.is_full(); ++block) {
       const std::size_t before = found.size();
       finder.find(block, found);
       if (!room.take(found.size() - before)) found.clear();
@@ -274,8 +232,11 @@ Result<SpherePairs> Tracer::pairs(double gap) {
     });
     pieces[index] = found;  // a copy, which takes no more than it needs
   };
-  if (auto done = run_points(blocks, blocks_of_piece, std::cref(work)); !done) return done.error();
-  if (auto done = room.check("pairs of spheres"); !done) return done.error();
+  std::atomic<std::size_t> ended{0};
+  if (auto done = run_blocks(of_pieces, std::cref(work), ended); !done) return done.error();
+  if (auto done = room.check("the first " + std::to_string(room.count()) + " pairs of spheres");
+      !done)
+    return done.error();
   SpherePairs all;
   const auto fill = [&] { gather(pieces, geometry_.sphere_count(), all); };
   if (auto done = diagnose(std::cref(fill)); !done) return done.error();
