@@ -6,6 +6,7 @@
 #include <type_traits>
 
 #include "core/base/platform.h"
+#include "core/math/error_free.h"
 #include "core/math/number.h"
 
 namespace boule::elementary {
@@ -18,42 +19,11 @@ inline constexpr double pi = 3.141592653589793;
 
 namespace detail {
 
-/// An unevaluated sum hi + lo of two numbers.
-template <class T>
-struct SumOf {
-  T hi, lo;
-};
-
-/// a + b exactly, where |a| >= |b| (Dekker 1971).
-template <class T>
-BOULE_INLINE SumOf<T> fast_two_sum(const T& a, const T& b) {
-  const T sum = a + b;
-  return {sum, b - (sum - a)};
-}
-
-/// a * b exactly, for operands below 2^995 (Dekker 1971; Veltkamp's splitting).
-template <class T>
-BOULE_INLINE SumOf<T> two_product(const T& a, const T& b) {
-  const T splitter(134217729.0);  // 2^27 + 1
-  const T a_big = splitter * a, b_big = splitter * b;
-  const T a_hi = a_big - (a_big - a), b_hi = b_big - (b_big - b);
-  const T a_lo = a - a_hi, b_lo = b - b_hi;
-  const T product = a * b;
-  return {product, ((a_hi * b_hi - product) + a_hi * b_lo + a_lo * b_hi) + a_lo * b_lo};
-}
-
 /// a + b to about 2^-104 relative, where |a| >= |b|.
 template <class T>
 BOULE_INLINE SumOf<T> add(const SumOf<T>& a, const SumOf<T>& b) {
   const SumOf<T> sum = fast_two_sum(a.hi, b.hi);
   return fast_two_sum(sum.hi, sum.lo + (a.lo + b.lo));
-}
-
-/// a * b to about 2^-102 relative.
-template <class T>
-BOULE_INLINE SumOf<T> multiply(const SumOf<T>& a, const SumOf<T>& b) {
-  const SumOf<T> product = two_product(a.hi, b.hi);
-  return fast_two_sum(product.hi, product.lo + (a.hi * b.lo + a.lo * b.hi));
 }
 
 /// The integer nearest to x, for |x| < 2^51.
@@ -135,10 +105,9 @@ requires(!std::is_integral_v<T>)  // whole numbers count as double
     BOULE_INLINE T pow(const T& x, const T& y) {
   constexpr double inf = std::bit_cast<double>(0x7ff0000000000000);
   const T zero(0.0), one(1.0);
-  const detail::SumOf<T> log = detail::log_extended(x);
-  const detail::SumOf<T> product = detail::two_product(log.hi, y);
-  const T ordinary =
-      detail::exp_extended(detail::fast_two_sum(product.hi, product.lo + log.lo * y));
+  const SumOf<T> log = detail::log_extended(x);
+  const SumOf<T> product = two_product(log.hi, y);
+  const T ordinary = detail::exp_extended(fast_two_sum(product.hi, product.lo + log.lo * y));
   // Numbers that two_product() cannot take.
   const Mask<T> up = zero < y, grows = select(zero < log.hi, up, y <= zero);
   const T huge = select(grows, T(inf), zero);

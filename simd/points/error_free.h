@@ -3,36 +3,22 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/error_free.h"
+
 namespace boule {
 
 /// A sum of two doubles, the second of which is below half an ulp of the first.
-struct Double2 {
-  double hi = 0, lo = 0;
-
-  Double2() = default;
-  Double2(double x) : hi(x) {}
-  Double2(double high, double low) : hi(high), lo(low) {}
+struct Double2 : SumOf<double> {
+  Double2() : Double2(0.0) {}
+  Double2(double x) : Double2(x, 0.0) {}
+  Double2(double high, double low) : SumOf{high, low} {}
+  Double2(const SumOf<double>& sum) : SumOf(sum) {}
 };
 
 /// a + b without error (Knuth, TAOCP 2, 4.2.2).
 inline Double2 two_sum(double a, double b) {
   const double sum = a + b, of_b = sum - a;
   return {sum, (a - (sum - of_b)) + (b - of_b)};
-}
-
-/// The same for |a| >= |b|.
-inline Double2 fast_two_sum(double a, double b) {
-  const double sum = a + b;
-  return {sum, b - (sum - a)};
-}
-
-/// a b without error (Dekker), as long as nothing overflows or underflows.
-inline Double2 two_product(double a, double b) {
-  constexpr double splitter = 0x1p27 + 1;
-  const double a_split = a * splitter, b_split = b * splitter;
-  const double a_high = a_split - (a_split - a), b_high = b_split - (b_split - b);
-  const double a_low = a - a_high, b_low = b - b_high, product = a * b;
-  return {product, ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low};
 }
 
 /// Each within a few 2^-104 of the exact result, relative to it.
@@ -43,10 +29,7 @@ inline Double2 operator+(const Double2& a, const Double2& b) {
 }
 inline Double2 operator-(const Double2& a) { return {-a.hi, -a.lo}; }
 inline Double2 operator-(const Double2& a, const Double2& b) { return a + -b; }
-inline Double2 operator*(const Double2& a, const Double2& b) {
-  const Double2 product = two_product(a.hi, b.hi);
-  return fast_two_sum(product.hi, product.lo + (a.hi * b.lo + a.lo * b.hi));
-}
+inline Double2 operator*(const Double2& a, const Double2& b) { return multiply<double>(a, b); }
 inline Double2 operator/(const Double2& a, const Double2& b) {
   const double first = a.hi / b.hi;
   const Double2 rest = a - b * first;

@@ -9,7 +9,7 @@ BEGIN {
   kernel_std = "^<(array|bit|cmath|concepts|cstddef|cstdint|cstring|limits|type_traits|utility)>$"
   # Formulas, each a template that scalar code and kernels share: always inlined, and headers only,
   # or a kernel would call code that was compiled for another instruction set.
-  formulas = "^core/(base/platform|math/(elementary|geometry|interval|light_cone|number|random|ray|sobol|vec|warp)|optics/(camera_view|cameras|dielectric|film_point|incidence|lens_disc|lens_rays|lens_view|lobes|reflectance))\\.h$"
+  formulas = "^core/(base/platform|math/(elementary|error_free|geometry|interval|light_cone|number|random|ray|sobol|vec|warp)|optics/(camera_view|cameras|dielectric|film_point|incidence|lens_disc|lens_rays|lens_view|lobes|reflectance))\\.h$"
   narrow = "^(core|simd/(abi|geometry|points|stream|dispatch))/"
 
   layer(formulas, formulas, kernel_std)
