@@ -16,9 +16,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/median.h"
-#include "bench/uniform_spheres.h"
-#include "bench/wall_seconds.h"
+#include "bench/scenes/uniform_spheres.h"
+#include "bench/tools/median.h"
+#include "bench/tools/wall_seconds.h"
 #include "core/base/parallel.h"
 #include "render/frame/scheduler.h"
 #include "simd/geometry/geometry.h"

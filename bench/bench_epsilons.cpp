@@ -15,7 +15,7 @@
 #include <system_error>
 #include <vector>
 
-#include "bench/epsilons.h"
+#include "bench/errors/epsilons.h"
 #include "render/image/write_image.h"
 
 namespace boule::bench {

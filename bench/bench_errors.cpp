@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <map>
 
-#include "bench/hard_errors.h"
+#include "bench/errors/hard_errors.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/bench_data.h"
-#include "bench/ratio_reporter.h"
+#include "bench/textbook/bench_data.h"
+#include "bench/tools/ratio_reporter.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule {

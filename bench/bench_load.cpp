@@ -18,8 +18,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/random4.h"
-#include "bench/uniform_spheres.h"
+#include "bench/scenes/random4.h"
+#include "bench/scenes/uniform_spheres.h"
 #include "render/files/file/input_file.h"
 #include "render/files/particle_file/particle_file.h"
 #include "render/files/scene_file/nff/nff_reader.h"

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "bench/noise_errors.h"
+#include "bench/errors/noise_errors.h"
 #include "render/files/scene_file/scene_file.h"
 
 namespace boule::bench {

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/median.h"
-#include "bench/path_errors.h"
-#include "bench/thread_seconds.h"
+#include "bench/errors/path_errors.h"
+#include "bench/tools/median.h"
+#include "bench/tools/thread_seconds.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "bench/rank_simulation.h"
-#include "bench/thread_seconds.h"
+#include "bench/tools/thread_seconds.h"
 #include "render/apps/parts/part_blocks.h"
 #include "render/apps/team/block_dealer.h"
 #include "render/files/scene_file/scene_file.h"

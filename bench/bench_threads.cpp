@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/median.h"
-#include "bench/uniform_spheres.h"
-#include "bench/wall_seconds.h"
+#include "bench/scenes/uniform_spheres.h"
+#include "bench/tools/median.h"
+#include "bench/tools/wall_seconds.h"
 #include "render/files/scene_file/scene_file.h"
 #include "render/renderer/renderer.h"
 

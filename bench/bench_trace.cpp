@@ -19,8 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/bench_scenes.h"
-#include "bench/camera_rays.h"
+#include "bench/scenes/bench_scenes.h"
+#include "bench/scenes/camera_rays.h"
 #include "core/optics/camera_builder.h"
 #include "simd/dispatch/dispatch.h"
 #include "simd/geometry/geometry.h"

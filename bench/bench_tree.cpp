@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/camera_rays.h"
-#include "bench/uniform_spheres.h"
+#include "bench/scenes/camera_rays.h"
+#include "bench/scenes/uniform_spheres.h"
 #include "core/optics/camera_builder.h"
 #include "core/scene/camera.h"
 #include "simd/abi/isa.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "bench/camera_rays.h"
+#include "bench/scenes/camera_rays.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {

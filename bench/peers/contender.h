@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/bench_scenes.h"
-#include "bench/ray_kinds.h"
+#include "bench/scenes/bench_scenes.h"
+#include "bench/scenes/ray_kinds.h"
 #include "core/math/ray.h"
 #include "simd/abi/stream.h"
 #include "simd/stream/stream_buffer.h"

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "bench/bench_scenes.h"
+#include "bench/scenes/bench_scenes.h"
 #include "core/math/ray.h"
 
 namespace boule::bench {

@@ -2,8 +2,8 @@
 
 #include <thread>
 
-#include "bench/cpu_model.h"
-#include "bench/peers/embree_peer.h"
+#include "bench/peers/embree/embree_peer.h"
+#include "bench/tools/cpu_model.h"
 
 namespace boule::bench {
 Machine this_machine() {

@@ -16,11 +16,11 @@
 #include <limits>
 #include <map>
 
-#include "bench/command_line.h"
-#include "bench/peers/frame_report.h"
-#include "bench/peers/frame_scene.h"
+#include "bench/peers/frames/frame_report.h"
+#include "bench/peers/frames/frame_scene.h"
 #include "bench/peers/report.h"
 #include "bench/peers/summary.h"
+#include "bench/tools/command_line.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace boule::bench {

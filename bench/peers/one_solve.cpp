@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "bench/median.h"
-#include "bench/thread_seconds.h"
+#include "bench/tools/median.h"
+#include "bench/tools/thread_seconds.h"
 
 namespace boule::bench {
 

@@ -7,13 +7,13 @@
 #include <numeric>
 #include <random>
 
-#include "bench/camera_rays.h"
 #include "bench/peers/boule_peer.h"
 #include "bench/peers/contender.h"
 #include "bench/peers/double_tree.h"
-#include "bench/peers/embree_peer.h"
+#include "bench/peers/embree/embree_peer.h"
 #include "bench/peers/judge.h"
 #include "bench/peers/one_solve.h"
+#include "bench/scenes/camera_rays.h"
 #include "render/frame/scheduler.h"
 #include "simd/dispatch/dispatch.h"
 

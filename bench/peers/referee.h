@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/peers/oracle_judge.h"
-#include "bench/ray_kinds.h"
+#include "bench/scenes/ray_kinds.h"
 #include "core/base/error.h"
 
 namespace boule::bench {

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "bench/peers/text_file.h"
+#include "bench/peers/frames/text_file.h"
 
 namespace boule::bench {
 namespace {

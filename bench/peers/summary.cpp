@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "bench/median.h"
+#include "bench/tools/median.h"
 
 namespace boule::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/hard_errors.h"
+#include "bench/errors/hard_errors.h"
 
 namespace boule::bench {
 

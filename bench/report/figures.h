@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-#include "bench/epsilons.h"
-#include "bench/hard_errors.h"
-#include "bench/noise_errors.h"
-#include "bench/path_errors.h"
+#include "bench/errors/epsilons.h"
+#include "bench/errors/hard_errors.h"
+#include "bench/errors/noise_errors.h"
+#include "bench/errors/path_errors.h"
 #include "bench/report/error_map.h"
 #include "bench/report/growth.h"
 #include "bench/report/peer_rows.h"
-#include "bench/solver_speeds.h"
+#include "bench/textbook/solver_speeds.h"
 
 namespace boule::bench {
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "bench/bench_scenes.h"
-#include "bench/camera_rays.h"
-#include "bench/ray_kinds.h"
-#include "bench/thread_seconds.h"
+#include "bench/scenes/bench_scenes.h"
+#include "bench/scenes/camera_rays.h"
+#include "bench/scenes/ray_kinds.h"
+#include "bench/tools/thread_seconds.h"
 #include "simd/dispatch/dispatch.h"
 #include "simd/geometry/geometry.h"
 

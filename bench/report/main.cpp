@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <fstream>
 
-#include "bench/command_line.h"
 #include "bench/report/figures.h"
+#include "bench/tools/command_line.h"
 
 namespace boule::bench {
 namespace {

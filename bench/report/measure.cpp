@@ -3,9 +3,9 @@
 #include <ctime>
 #include <thread>
 
-#include "bench/cpu_model.h"
 #include "bench/report/commit.h"
 #include "bench/report/figures.h"
+#include "bench/tools/cpu_model.h"
 #include "render/files/scene_file/scene_file.h"
 #include "simd/dispatch/dispatch.h"
 

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "bench/peers/embree_peer.h"
+#include "bench/peers/embree/embree_peer.h"
 #include "bench/peers/referee.h"
 
 namespace boule::bench {

@@ -2,7 +2,7 @@
 
 namespace boule {
 
-/// The version of this library: "1.0.0".
+/// The version of this library: "2.0.0".
 const char* library_version();
 
 }  // namespace boule

@@ -11,7 +11,7 @@
 #include "render/memory/scene_memory.h"
 #include "render/prepare/scene_geometry.h"
 #include "render/renderer/preparation.h"
-#include "render/renderer/trace_worker.h"
+#include "render/renderer/queries/trace_worker.h"
 
 namespace boule {
 

@@ -52,7 +52,11 @@ BEGIN {
   layer("^render/apps/view/session/", below "|^render/apps/(job|view/(messages|panes|session))/", any)
   layer("^render/apps/view/server/", below "|^render/apps/(job|view/(messages|session|server))/", any)
   layer("^render/apps/cli/", below "|^render/apps/(parts|job|team|view|cli)/", any)
-  layer("^render/apps/python/", narrow "|^render/(memory|threads|image|frame|prepare|renderer|files/[a-z_]+|apps/(parts|job|python))/", any)
+  python = narrow "|^render/(memory|threads|image|frame|prepare|renderer|files/[a-z_]+|apps/(parts|job))/"
+  layer("^render/apps/python/values/", python "|^render/apps/python/values/", any)
+  layer("^render/apps/python/scenes/", python "|^render/apps/python/(values|scenes)/", any)
+  layer("^render/apps/python/(pictures|queries)/", python "|^render/apps/python/", any)
+  layer("^render/apps/python/", python "|^render/apps/python/", any)
   layer("^render/apps/manual/", below "|^render/apps/(job|cli|manual)/", any)
 
   # These tests run on machines without the renderer's packages.
@@ -78,7 +82,7 @@ BEGIN {
   owner("std::(jthread|thread|async)[^_a-z]|pthread_create", "^render/threads/", "threads")
   owner("#include <(cpuid\\.h|sys/auxv\\.h)>|__builtin_cpu_|xgetbv|getauxval", "^simd/dispatch/cpu\\.", "CPUID")
   owner("#include <(iostream|print|syslog\\.h)>|std::(cout|cerr|clog|cin)[^_a-z]|" word "(v?[fd]?printf|f?puts|f?putc|putchar|fmt::print|perror|syslog)[ (]|" word "(stdout|stderr|STD(OUT|ERR)_FILENO)[^_a-zA-Z0-9]", "^render/apps/cli/", "the terminal")
-  owner("#include <c?assert(\\.h)?>|" word "(_exit|_Exit|exit|quick_exit|abort|terminate|raise|longjmp|assert|__builtin_(trap|abort|unreachable))[ ]*\\(", "^render/apps/(cli/|python/call\\.cpp$)", "the end of the process")
+  owner("#include <c?assert(\\.h)?>|" word "(_exit|_Exit|exit|quick_exit|abort|terminate|raise|longjmp|assert|__builtin_(trap|abort|unreachable))[ ]*\\(", "^render/apps/(cli/|python/values/call\\.cpp$)", "the end of the process")
   owner(word "(secure_)?getenv[ ]*\\(", "^(render/apps/cli|simd/dispatch)/|^render/apps/job/source_date\\.cpp$", "the environment")
   owner("#include <fast_float/", "^render/files/particle_file/text/text_number\\.cpp$", "fast_float")
   anywhere("^[ \t]*#[ \t]*define[ \t]", "^(core/base/platform\\.h|render/files/particle_file/text/text_number\\.cpp)$", "a macro")

@@ -45,7 +45,7 @@ accepted() {
 }
 
 # Upward and sideways.
-refused render/apps/cli/a.cpp '#include "render/apps/python/call.h"' 'may not include'
+refused render/apps/cli/a.cpp '#include "render/apps/python/values/call.h"' 'may not include'
 refused render/apps/python/a.cpp '#include "render/apps/cli/process/interrupt.h"' 'may not include'
 refused render/apps/python/a.cpp '#include "render/integrators/path.h"' 'may not include'
 accepted render/apps/python/a.cpp '#include "render/apps/job/scene_loader.h"'

@@ -28,10 +28,10 @@ example_says() {
 }
 
 apt-get update -q >log
-dpkg --purge python3-boule libboule-dev libboule1.0 boule-mpi boule >>log 2>&1  # what a failed trial left
+dpkg --purge python3-boule libboule-dev libboule2.0 boule-mpi boule >>log 2>&1  # what a failed trial left
 # What the packages need is installed before, so that what is left at the end is theirs.
 depends=$(for deb in *.deb; do dpkg-deb -f "$deb" Depends; done | tr ',' '\n' | sed 's/(.*)//; s/|.*//; s/ //g' |
-  grep -vE '^(boule|boule-image-module-.*|libboule1.0|)$' | sort -u)
+  grep -vE '^(boule|boule-image-module-.*|libboule2.0|)$' | sort -u)
 # shellcheck disable=SC2086 # one word each
 install $depends g++ cmake ninja-build pkg-config openmpi-bin mpich man-db
 files >before
@@ -61,11 +61,11 @@ bash docs/links.sh /usr/share/doc/boule installed || fail "links of the manual l
 
 echo "packages: libboule-dev"
 # Programs with the library stay where the program is another version, of the same module.
-needs=$(dpkg-deb -f libboule1.0_*.deb Depends)
-! grep -qE 'boule \(|\(= ' <<<"$needs" || fail "libboule1.0 needs one version: $needs"
+needs=$(dpkg-deb -f libboule2.0_*.deb Depends)
+! grep -qE 'boule \(|\(= ' <<<"$needs" || fail "libboule2.0 needs one version: $needs"
 module=$(dpkg-deb -f boule_*.deb Provides)
 [[ $module == boule-image-module-[0-9]* && ", $needs," == *", $module,"* ]] || fail "'$module' is not needed: $needs"
-install ./libboule1.0_*.deb ./libboule-dev_*.deb
+install ./libboule2.0_*.deb ./libboule-dev_*.deb
 for kind in boule shared; do
   cmake -S consumer/find_package -B "build-$kind" -G Ninja -DBOULE_LIBRARY="boule::$kind" >>log
   cmake --build "build-$kind" >>log
@@ -78,7 +78,7 @@ example_says ./by-shared
 cp "$(pkg-config --variable=image_module boule-static)" .
 example_says ./by-static
 for program in by-shared build-shared/example; do
-  readelf -d "$program" | grep -q 'NEEDED.*libboule.so.1.0' || fail "$program does not use the shared library"
+  readelf -d "$program" | grep -q 'NEEDED.*libboule.so.2.0' || fail "$program does not use the shared library"
 done
 for program in by-static build-boule/example; do
   if readelf -d "$program" | grep -q libboule; then fail "$program uses the shared library"; fi
@@ -109,7 +109,7 @@ for mpirun in mpirun.openmpi mpirun.mpich; do
   cmp first.png team.png || fail "$mpirun renders another picture"
 done
 
-apt-get purge -q -y boule boule-mpi libboule1.0 libboule-dev python3-boule >>log
+apt-get purge -q -y boule boule-mpi libboule2.0 libboule-dev python3-boule >>log
 rm -rf /root/.cache
 files >after
 diff before after || fail "something is left, or gone"

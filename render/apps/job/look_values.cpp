@@ -11,7 +11,7 @@
 #include "render/apps/job/option_values.h"
 #include "render/files/file/nearest_name.h"
 #include "render/files/particle_file/particle_file.h"
-#include "render/files/particles/color_map.h"
+#include "render/files/particles/colors/color_map.h"
 #include "render/files/particles/particle_style.h"
 
 namespace boule {

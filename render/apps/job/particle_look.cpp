@@ -6,7 +6,7 @@
 
 #include "render/apps/job/look_values.h"
 #include "render/apps/job/option_values.h"
-#include "render/files/particles/color_map.h"
+#include "render/files/particles/colors/color_map.h"
 
 namespace boule {
 namespace {

@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "render/apps/python/errors.h"
-#include "render/apps/python/picture.h"
-#include "render/apps/python/presence.h"
-#include "render/apps/python/values.h"
+#include "render/apps/python/pictures/picture.h"
+#include "render/apps/python/values/errors.h"
+#include "render/apps/python/values/presence.h"
+#include "render/apps/python/values/values.h"
 #include "simd/dispatch/dispatch.h"
 
 namespace py = pybind11;

@@ -9,7 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/text.h"
 #include "core/scene/number_text.h"
-#include "render/files/particles/species_palette.h"
+#include "render/files/particles/colors/species_palette.h"
 
 namespace boule {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "render/files/particles/color_meaning.h"
-#include "render/files/particles/given_kinds.h"
+#include "render/files/particles/colors/color_meaning.h"
+#include "render/files/particles/colors/given_kinds.h"
 
 namespace boule {
 

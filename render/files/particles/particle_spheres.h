@@ -17,7 +17,7 @@
 #include "render/files/particles/bonds/bond_capsules.h"
 #include "render/files/particles/bonds/particle_bonds.h"
 #include "render/files/particles/cell_images.h"
-#include "render/files/particles/color_meaning.h"
+#include "render/files/particles/colors/color_meaning.h"
 #include "render/files/particles/particle_choices.h"
 #include "render/files/particles/particle_style.h"
 #include "render/files/particles/particle_values.h"

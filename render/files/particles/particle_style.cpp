@@ -4,7 +4,7 @@
 
 #include "core/base/text.h"
 #include "render/files/particles/particle_columns.h"
-#include "render/files/particles/select_expression.h"
+#include "render/files/particles/select/select_expression.h"
 
 namespace boule {
 namespace {

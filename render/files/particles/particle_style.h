@@ -9,8 +9,8 @@
 
 #include "core/math/srgb.h"
 #include "core/scene/names.h"
-#include "render/files/particles/color_map.h"
-#include "render/files/particles/given_kinds.h"
+#include "render/files/particles/colors/color_map.h"
+#include "render/files/particles/colors/given_kinds.h"
 #include "render/files/particles/particle_choices.h"
 
 namespace boule {

@@ -22,7 +22,7 @@
 #include "render/frame/scheduler.h"
 #include "render/frame/stopwatch.h"
 #include "render/memory/available_memory.h"
-#include "render/renderer/point_order.h"
+#include "render/renderer/queries/point_order.h"
 #include "render/renderer/tracer.h"
 
 namespace boule::cli {

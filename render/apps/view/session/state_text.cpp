@@ -10,7 +10,7 @@
 #include "render/apps/view/messages/camera_kinds.h"
 #include "render/apps/view/messages/message_keys.h"
 #include "render/apps/view/panes/difference.h"
-#include "render/files/particles/color_map.h"
+#include "render/files/particles/colors/color_map.h"
 #include "render/prepare/default_camera.h"
 
 namespace boule::view {

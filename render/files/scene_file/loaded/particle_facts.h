@@ -6,7 +6,7 @@
 #include <string>
 
 #include "render/files/particle_file/frame/particle_frame.h"
-#include "render/files/particles/color_meaning.h"
+#include "render/files/particles/colors/color_meaning.h"
 #include "render/files/particles/particle_choices.h"
 
 namespace boule {

@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "render/files/particles/color_map.h"
+#include "render/files/particles/colors/color_map.h"
 #include "render/files/scene_file/toml/toml_table.h"
 
 namespace boule {

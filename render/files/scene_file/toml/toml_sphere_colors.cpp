@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include "render/files/particles/colors/percentiles.h"
 #include "render/files/particles/particle_columns.h"
-#include "render/files/particles/percentiles.h"
 
 namespace boule {
 namespace {

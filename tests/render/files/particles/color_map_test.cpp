@@ -1,4 +1,4 @@
-#include "render/files/particles/color_map.h"
+#include "render/files/particles/colors/color_map.h"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <cstdio>
 
-#include "render/files/particles/color_map.h"
+#include "render/files/particles/colors/color_map.h"
 #include "render/files/particles/elements.h"
 
 int main() {

@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "render/files/particles/select_expression.h"
+#include "render/files/particles/select/select_expression.h"
 #include "tests/render/files/particles/particle_frames.h"
 
 namespace boule {

@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "core/base/chunks.h"
+#include "render/files/particles/colors/particle_colors.h"
+#include "render/files/particles/colors/percentiles.h"
+
+namespace boule {
+namespace {
+
+/// Numbers on both sides of 0: as far to one side as to the other.
+std::array<double, 2> around_0(const std::array<double, 2>& ends) {
+  if (!(ends[0] < 0 && ends[1] > 0)) return ends;
+  const double farthest = std::max(-ends[0], ends[1]);
+  return {-farthest, farthest};
+}
+
+/// The range that the series has, or the frame by itself.
+std::array<double, 2> choose_range(const ColoredFrame& colored, const ParticleNumbers& numbers,
+                                   const std::string& by, bool is_diverging,
+                                   ParticleMaterials& made) {
+  auto& own = made.own.range;
+  const ParticleChoices* const chosen = colored.style.chosen;
+  const bool of_series = chosen != nullptr && chosen->range;
+  if (!of_series && colored.frame.size() > 0) {
+    own = percentiles(numbers, colored.frame.size(), colored.parallel_for);
+    if ((*own)[0] > (*own)[1]) own.reset();  // all are missing
+  }
+  const auto& ends = of_series ? chosen->range : own;
+  if (!ends) return {0, 1};
+  const auto around = is_diverging ? around_0(*ends) : *ends;
+  made.notes.push_back(range_note(by, around, of_series ? chosen->of_frames : "") +
+                       (around == *ends ? "" : ", the same on both sides of 0"));
+  return map_range(around);
+}
+
+}  // namespace
+
+Result<ParticleMaterials> map_numbers(const ColoredFrame& colored, const MappedColors& mapped,
+                                      const std::string& key) {
+  const auto numbers = find_particle_numbers(colored.frame, mapped.by, key);
+  if (!numbers) return numbers.error();
+  ParticleMaterials made;
+  const std::array<double, 2> range =
+      mapped.range
+          ? *mapped.range
+          : choose_range(colored, numbers.value(), mapped.by, mapped.map.is_diverging(), made);
+  if (!(range[0] < range[1]) || !std::isfinite(range[0]) || !std::isfinite(range[1])) {
+    return Diagnostic::about("color.range", "expected two finite numbers, the larger one last");
+  }
+  const SrgbColor nan_color = colored.style.nan_color;
+  made.colors.scale = {mapped.by, mapped.map, range, nan_color};
+  made.materials.values.resize(colored.frame.size());
+  const RangePlace place(range);
+  std::vector<std::size_t> missing(chunks_of(made.materials.values.size()));
+  in_chunks(colored.parallel_for, made.materials.values.size(),
+            [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+              std::vector<double> block(end - begin);
+              numbers.value().read(begin, end, block.data());
+              for (std::size_t i = begin; i < end; ++i) {
+                const double number = block[i - begin];
+                const bool is_missing = std::isnan(number);
+                missing[chunk] += is_missing ? 1 : 0;
+                made.materials.values[i] =
+                    colored.in(is_missing ? nan_color : mapped.map.color(place(number)));
+              }
+            });
+  made.colors.scale->missing = std::accumulate(missing.begin(), missing.end(), std::size_t{0});
+  if (const std::size_t count = made.colors.scale->missing; count > 0) {
+    made.notes.push_back(std::to_string(count) +
+                         (count == 1 ? " particle has" : " particles have") + " no number in " +
+                         quote(mapped.by) + ", the colour of that is " + hex_text(nan_color));
+  }
+  return made;
+}
+
+}  // namespace boule
