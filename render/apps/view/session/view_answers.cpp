@@ -1,4 +1,3 @@
-#include <filesystem>
 #include <utility>
 
 #include "render/apps/view/messages/camera_edit.h"
@@ -10,8 +9,6 @@
 namespace boule::view {
 namespace {
 
-constexpr StepLimit save_step{.seconds = 0.05};
-
 /// A word of a command line, in quotes where a shell needs them.
 std::string word(const std::string& text) {
   constexpr const char* plain =
@@ -21,11 +18,6 @@ std::string word(const std::string& text) {
   std::string quoted = "'";
   for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return quoted + "'";
-}
-
-/// "first_light.png" of "scenes/first_light.toml".
-std::string picture_name(const std::string& path, const char* ending = ".png") {
-  return std::filesystem::path(path).stem().string() + ending;
 }
 
 }  // namespace
@@ -42,7 +34,7 @@ std::string ViewLoop::command_of(std::size_t index) const {
   const SourceFacts& facts = parts_.source.facts();
   const ViewSettings& settings = wish_.settings;
   const PaneSettings& pane = settings.panes[index];
-  const std::string name = picture_name(facts.path, facts.numbered ? ".####.png" : ".png");
+  const std::string name = picture_name(facts.path, facts.numbered);
   std::string text = "boule render " + word(facts.path) + " -o " + word(name) + " --size " +
                      std::to_string(settings.width) + "x" + std::to_string(settings.height) +
                      " --spp " + std::to_string(settings.spp) + " --camera " +
@@ -58,59 +50,19 @@ std::string ViewLoop::command_of(std::size_t index) const {
 }
 
 void ViewLoop::save(const SaveMessage& message) {
-  if (save_) {
-    parts_.outbox.add_text(
-        error_text("save", Diagnostic::of("a picture is being saved already"), message.id));
-    return;
-  }
+  if (saver_.is_busy())
+    return saver_.refuse(Diagnostic::of("a picture is being saved already"), message.id);
   const auto pane = static_cast<std::size_t>(message.pane);
   if (pane >= wish_.settings.panes.size()) return;  // the panes have changed meanwhile
   RenderOptions options = stage_.options(wish_, pane);
   options.spp = message.spp.value_or(options.spp);
   const bool is_shown = !must_begin_ && !failed_ && stage_.started() && stage_.done() &&
                         stage_.shape().kind == StageKind::rest && options.spp == wish_.settings.spp;
-  if (is_shown) return finish_save(stage_.pane(pane).picture(), message.id);
+  if (is_shown)
+    return saver_.keep(stage_.pane(pane).picture(), wish_.settings.exposure, message.id);
   Scene scene = stage_.scene();
   scene.camera = wish_.camera;
-  auto job = SaveJob::create(message.id, std::move(scene), options);
-  if (!job) {
-    parts_.outbox.add_text(error_text("save", job.error(), message.id));
-    return;
-  }
-  save_.emplace(std::move(job).value());
-}
-
-/// Goes on with a picture that is saved, while nothing else moves.
-void ViewLoop::step_save() {
-  if (!save_ || parts_.mailbox.is_moving(Clock::now())) return;
-  if (const auto done = save_->step(save_step); !done) {
-    parts_.outbox.add_text(error_text("save", done.error(), save_->id()));
-    return save_.reset();
-  }
-  if (!save_->done()) {
-    parts_.outbox.report("saving", saving_text(save_->id(), save_->share()));
-    return;
-  }
-  const std::uint32_t id = save_->id();
-  const auto image = save_->picture();
-  save_.reset();
-  if (image) {
-    finish_save(image.value(), id);
-  } else {
-    parts_.outbox.add_text(error_text("save", image.error(), id));
-  }
-}
-
-void ViewLoop::finish_save(const Image& image, std::uint32_t id) {
-  std::string bytes = png_of(image, wish_.settings.exposure);
-  if (bytes.empty()) {
-    parts_.outbox.add_text(error_text("save", Diagnostic::of("the picture cannot be made"), id));
-    return;
-  }
-  const std::string name = picture_name(parts_.source.facts().path);
-  const int number = parts_.pictures.add({name, std::move(bytes)});
-  parts_.outbox.add_text(
-      saved_text(id, "/picture/" + std::to_string(number) + "?token=" + parts_.token, name));
+  saver_.begin(message.id, std::move(scene), options);
 }
 
 void ViewLoop::pick(const PickMessage& message) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <exception>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
 #include "core/base/float_environment.h"
-#include "render/apps/view/panes/difference.h"
 #include "render/apps/view/session/state_text.h"
 
 namespace boule::view {
@@ -18,10 +18,6 @@ using std::chrono::milliseconds;
 constexpr double step_seconds = 0.025;
 /// A moving picture is to be rendered within this time; a step then lasts until it is whole.
 constexpr double moving_seconds = 0.035, longest_moving_step = 0.06;
-/// How often a picture at rest is shown as it grows.
-constexpr milliseconds time_between_frames{100}, time_between_reports{250};
-/// The PNG waits for this: nobody who is about to move the camera has to wait for it.
-constexpr milliseconds quiet_time{200};
 
 bool is_frameless(const ViewSettings& settings) {
   return std::any_of(settings.panes.begin(), settings.panes.end(),
@@ -33,6 +29,17 @@ double seconds_of(Mailbox::Clock::duration time) {
 }
 
 }  // namespace
+
+std::string picture_name(const std::string& path, bool numbered) {
+  return std::filesystem::path(path).stem().string() + (numbered ? ".####.png" : ".png");
+}
+
+ViewLoop::ViewLoop(const LoopParts& parts, WorkSettings work)
+    : parts_(parts),
+      stage_(std::move(work)),
+      publisher_(stage_, parts.outbox),
+      saver_(parts.outbox, parts.pictures, picture_name(parts.source.facts().path, false),
+             parts.token) {}
 
 Status ViewLoop::open(LoadedScene loaded, Wish& first) {
   const FloatEnvironment floats;
@@ -60,9 +67,9 @@ void ViewLoop::run() {
       choose_stage();
       if (late_pick_) pick(*std::exchange(late_pick_, std::nullopt));
       render();
-      publish();
-      step_save();
-      report_statistics();
+      if (!failed_) publisher_.publish(wish_);
+      if (!parts_.mailbox.is_moving(Clock::now())) saver_.step(wish_.settings.exposure);
+      if (!failed_) publisher_.report_statistics(wish_);
     } catch (const std::exception& error) {
       fail("scene", Diagnostic::of(error.what()));
     }
@@ -75,13 +82,11 @@ ViewLoop::Clock::time_point ViewLoop::next_time() const {
   if (!parts_.outbox.connected()) return now + std::chrono::hours(1);
   if (must_begin_ && !failed_) return now;
   if (is_rendering()) return wish_.settings.pace > 0 ? last_step_ + milliseconds(30) : now;
-  if (save_) return now;
+  if (saver_.is_busy()) return now;
   auto next = now + std::chrono::hours(1);
   if (!failed_ && stage_.shape().kind == StageKind::moving)
     next = std::min(next, parts_.mailbox.moving_until());
-  if (finished_since_ && !finished_sent_) next = std::min(next, *finished_since_ + quiet_time);
-  if (dirty_) next = std::min(next, last_sent_ + time_between_frames);
-  return next;
+  return std::min(next, publisher_.next_time());
 }
 
 bool ViewLoop::is_rendering() const { return !failed_ && stage_.started() && !stage_.done(); }
@@ -91,10 +96,7 @@ void ViewLoop::handle(const News& news) {
   if (news.camera || news.settings || news.scene) must_begin_ = true;
   if (must_begin_) failed_ = false;
   if (news.connected || news.settings || news.scene || news.camera_type) send_state();
-  if (news.connected) {
-    dirty_ = true;
-    finished_sent_ = false;
-  }
+  if (news.connected) publisher_.send_all_again();
   answer(news);
 }
 
@@ -102,10 +104,7 @@ void ViewLoop::answer(const News& news) {
   if (news.pick) pick(*news.pick);
   if (news.texts) send_texts(*news.texts);
   if (news.save) save(*news.save);
-  if (news.stop_saving && save_) {
-    parts_.outbox.add_text(error_text("save", Diagnostic::of("stopped"), save_->id()));
-    save_.reset();
-  }
+  if (news.stop_saving) saver_.stop();
 }
 
 /// Reads the scene of the wish. If that fails, the wish is taken back.
@@ -136,7 +135,7 @@ void ViewLoop::send_state() {
 void ViewLoop::fail(const std::string& about, const Diagnostic& error) {
   failed_ = true;
   must_begin_ = false;
-  save_.reset();
+  saver_.drop();
   parts_.outbox.add_text(error_text(about, error));
 }
 
@@ -178,8 +177,7 @@ void ViewLoop::choose_stage() {
 void ViewLoop::begin() {
   const StageShape shape = wanted_shape();
   must_begin_ = false;
-  finished_since_.reset();
-  finished_sent_ = false;
+  publisher_.begin();
   pixels_due_ = 0;
   if (auto done = stage_.begin(wish_, shape, parts_.mailbox.overtaken()); !done)
     fail("settings", done.error());
@@ -210,89 +208,7 @@ void ViewLoop::render() {
     must_begin_ = true;
     return;
   }
-  dirty_ = true;
-  if (stage_.done()) end_stage();
-}
-
-void ViewLoop::end_stage() {
-  if (stage_.shape().kind == StageKind::rest) finished_since_ = Clock::now();
-}
-
-FrameHeader ViewLoop::header(int pane) const {
-  FrameHeader header;
-  header.pane = pane;
-  header.moving = stage_.shape().kind == StageKind::moving;
-  header.scale = stage_.shape().scale;
-  header.number = wish_.number;
-  return header;
-}
-
-/// Sends what there is to see: the first picture of a new wish at once, others now and then.
-void ViewLoop::publish() {
-  if (!stage_.started() || failed_) return;
-  const auto now = Clock::now();
-  if (finished_since_ && !finished_sent_ && now >= *finished_since_ + quiet_time) {
-    finished_sent_ = true;
-    dirty_ = false;
-    for (std::size_t i = 0; i < stage_.size(); ++i) publish_pane(i, true);
-    publish_difference(true);
-    return;
-  }
-  if (!dirty_) return;
-  const bool moving = stage_.shape().kind == StageKind::moving;
-  const bool urgent = sent_number_ != wish_.number || moving || stage_.done();
-  if (!urgent && now < last_sent_ + time_between_frames) return;
-  if (parts_.outbox.holds_frame(0) && sent_number_ == wish_.number && !stage_.done()) return;
-  dirty_ = false;
-  last_sent_ = now;
-  sent_number_ = wish_.number;
-  for (std::size_t i = 0; i < stage_.size(); ++i) publish_pane(i, false);
-  publish_difference(false);
-}
-
-void ViewLoop::publish_pane(std::size_t index, bool finished) {
-  LivePane& pane = stage_.pane(index);
-  const LivePane::Progress now = pane.progress();
-  FrameHeader header = this->header(static_cast<int>(index));
-  header.passes = now.passes;
-  header.share = static_cast<float>(now.share);
-  const Image image = pane.picture();
-  header.spp = static_cast<float>(static_cast<double>(now.samples) /
-                                  static_cast<double>(image.pixels.size()));
-  const float stops = wish_.settings.exposure;
-  if (!finished || !sender_.send_finished(image, header, stops)) sender_.send(image, header, stops);
-}
-
-void ViewLoop::publish_difference(bool finished) {
-  const Difference kind = wish_.settings.difference;
-  difference_.reset();
-  if (kind == Difference::none || stage_.size() < 2) return;
-  const auto make = [&]() -> Result<DifferencePicture> {
-    LivePane &a = stage_.pane(0), &b = stage_.pane(1);
-    if (kind == Difference::color)
-      return color_difference(a.picture(), b.picture(), wish_.settings.exposure);
-    const auto left = a.hits(), right = b.hits();
-    if (!left) return left.error();
-    if (!right) return right.error();
-    return t_difference(left.value(), right.value(), a.options().width, a.options().height);
-  };
-  const auto made = make();
-  if (!made) return;
-  const Image& image = made.value().image;
-  report_due_ = finished;
-  difference_ = DifferenceFigures{made.value().pixels, made.value().largest};
-  const FrameHeader header = this->header(difference_pane);
-  if (!finished || !sender_.send_finished(image, header, 0)) sender_.send(image, header, 0);
-}
-
-void ViewLoop::report_statistics() {
-  const auto now = Clock::now();
-  if (!stage_.started() || failed_) return;
-  const bool last = (stage_.done() && last_report_ < last_step_) || report_due_;
-  if (!last && (!is_rendering() || now < last_report_ + time_between_reports)) return;
-  last_report_ = now;
-  report_due_ = false;
-  parts_.outbox.report("statistics", statistics_text(wish_.number, stage_, difference_));
+  publisher_.note_step();
 }
 
 }  // namespace boule::view

@@ -7,12 +7,12 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "render/apps/view/panes/save_job.h"
 #include "render/apps/view/session/mailbox.h"
 #include "render/apps/view/session/outbox.h"
 #include "render/apps/view/session/pane_stage.h"
-#include "render/apps/view/session/picture_sender.h"
+#include "render/apps/view/session/picture_saver.h"
 #include "render/apps/view/session/picture_store.h"
+#include "render/apps/view/session/publisher.h"
 #include "render/apps/view/session/scene_source.h"
 #include "render/apps/view/session/state_text.h"
 
@@ -27,11 +27,13 @@ struct LoopParts {
   std::string token;
 };
 
+/// "first_light.png" of "scenes/first_light.toml"; "pour.####.png" of frames with numbers.
+std::string picture_name(const std::string& path, bool numbered);
+
 /// Renders what the client wishes, as it wishes it: the thread that everything is computed on.
 class ViewLoop {
  public:
-  ViewLoop(const LoopParts& parts, WorkSettings work)
-      : parts_(parts), stage_(std::move(work)), sender_(parts.outbox) {}
+  ViewLoop(const LoopParts& parts, WorkSettings work);
 
   /// Begins with the scene of a wish, and sets its camera, for it to become the mailbox' wish.
   Status open(LoadedScene loaded, Wish& first);
@@ -51,16 +53,8 @@ class ViewLoop {
   [[nodiscard]] int moving_scale() const;
   void render();
   [[nodiscard]] std::optional<double> allowance();
-  void end_stage();
-  void publish();
-  void publish_pane(std::size_t pane, bool finished);
-  void publish_difference(bool finished);
-  [[nodiscard]] FrameHeader header(int pane) const;
-  void report_statistics();
   void pick(const PickMessage& message);
   void save(const SaveMessage& message);
-  void step_save();
-  void finish_save(const Image& image, std::uint32_t id);
   void send_texts(const TextsMessage& message);
   [[nodiscard]] std::string command_of(std::size_t pane) const;
   [[nodiscard]] Clock::time_point next_time() const;
@@ -69,24 +63,18 @@ class ViewLoop {
 
   LoopParts parts_;
   PaneStage stage_;
-  PictureSender sender_;
+  Publisher publisher_;
+  PictureSaver saver_;
   Wish wish_;        ///< the newest
   Wish shown_wish_;  ///< whose scene was read
   Wish start_;       ///< the first one
   SceneFigures figures_;
   std::vector<NumberRange> columns_;
   std::vector<std::string> notes_;
-  std::optional<SaveJob> save_;
-  std::optional<PickMessage> late_pick_;         ///< waits until the panes show the whole picture
-  std::optional<DifferenceFigures> difference_;  ///< as it was sent last
-  bool must_begin_ = false;                      ///< the wish is not what is rendered
-  bool dirty_ = false;                           ///< there is more to see than was sent
-  bool failed_ = false;                          ///< it cannot be rendered
-  bool finished_sent_ = false;                   ///< the pictures at rest
-  bool report_due_ = false;                      ///< the statistics have changed since
-  std::uint32_t sent_number_ = 0;
-  std::optional<Clock::time_point> finished_since_;  ///< when the last pixel at rest was done
-  Clock::time_point last_sent_{}, last_report_{}, last_step_{};
+  std::optional<PickMessage> late_pick_;  ///< waits until the panes show the whole picture
+  bool must_begin_ = false;               ///< the wish is not what is rendered
+  bool failed_ = false;                   ///< it cannot be rendered
+  Clock::time_point last_step_{};
   double pixels_due_ = 0;  ///< at a pace
 };
 
