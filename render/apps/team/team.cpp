@@ -42,12 +42,7 @@ void Team::run(const OpenPost& open) {
     const std::lock_guard lock(mutex_);
     if (post) {
       post_ = std::move(post).value();
-      rank_ = post_->rank();
-      size_ = post_->size();
-      ranks_.resize(static_cast<std::size_t>(size_));
-      for (Rank& rank : ranks_) rank.heard = Clock::now();
-      ranks_.front().here = true;
-      ranks_[static_cast<std::size_t>(rank_)].name = settings_.name;
+      ranks_ = TeamRanks(post_->rank(), post_->size(), settings_.name);
       joined_ = true;
     } else {
       refused_ = post.error();
@@ -58,7 +53,7 @@ void Team::run(const OpenPost& open) {
 }
 
 void Team::send_hello() {
-  for (int to = leads() ? 1 : 0; to < (leads() ? size_ : 1); ++to) {
+  for (const int to : ranks_.watched()) {
     ByteWriter hello = letter_of(LetterKind::hello);
     hello.put(settings_.version, settings_.name);
     send(to, hello.take());
@@ -126,7 +121,7 @@ void Team::send(int to, const std::string& letter) {
 void Team::read(const Letter& letter) {
   ByteReader reader(letter.bytes);
   const auto kind = kind_of(reader);
-  Rank& rank = ranks_[static_cast<std::size_t>(letter.from)];
+  KnownRank& rank = ranks_[letter.from];
   {
     const std::lock_guard lock(mutex_);
     ++traffic_.letters;
@@ -147,7 +142,7 @@ void Team::read_from_leader(LetterKind kind, ByteReader& letter) {
   switch (kind) {
     case LetterKind::hello: {
       static_cast<void>(letter.get<std::string>());  // the version: the leader compares it
-      letter.read(ranks_.front().name);
+      letter.read(ranks_[0].name);
       break;
     }
     case LetterKind::work: {
@@ -180,8 +175,8 @@ void Team::begin(TeamPicture picture) {
   if (leads()) {
     missing_ = picture_.blocks.size();
     dealer_.emplace(std::move(picture_.blocks));
-    for (Rank& rank : ranks_) rank.in_hand = rank.last_portion = 0;
-    ranks_.front().ready = number_;
+    for (KnownRank& rank : ranks_) rank.in_hand = rank.last_portion = 0;
+    ranks_[0].ready = number_;
   } else {
     ByteWriter letter = letter_of(LetterKind::facts);
     letter.add(number_);
@@ -238,7 +233,7 @@ void Team::beat() {
   const auto now = Clock::now();
   if (now - beaten_ < beat_interval) return;
   beaten_ = now;
-  for (int to = leads() ? 1 : 0; to < (leads() ? size_ : 1); ++to) {
+  for (const int to : ranks_.watched()) {
     ByteWriter letter = letter_of(LetterKind::beat);
     letter.add(std::exchange(patience_, 0));
     outbox_.emplace_back(to, letter.take());
@@ -256,7 +251,7 @@ Status Team::end() {
   std::unique_lock lock(mutex_);
   if (leads()) {
     changed_.wait(lock, [this] {
-      return (missing_ == 0 && all_compared()) || stopped_ || failure_code_ != 0;
+      return (missing_ == 0 && ranks_.all_compared()) || stopped_ || failure_code_ != 0;
     });
     finish_picture();
   } else {
@@ -315,7 +310,7 @@ int Team::leave(int code, const std::string& text) {
     frame_count_ = std::max(frame_count_, 0);
     if (code != 0) frames_dealt_ = frame_count_;
     code_ = code;
-    ranks_.front().ended = true;
+    ranks_[0].ended = true;
     stopped_ = stopped_ || code != 0;
     number_ = std::numeric_limits<int>::max();  // no rank waits for a picture that never begins
     finish_picture();

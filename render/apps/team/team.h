@@ -17,6 +17,7 @@
 #include "render/apps/team/block_dealer.h"
 #include "render/apps/team/post.h"
 #include "render/apps/team/team_letters.h"
+#include "render/apps/team/team_ranks.h"
 #include "render/threads/threads.h"
 
 namespace boule {
@@ -43,13 +44,6 @@ struct TeamPicture {
   std::function<void()> lost;  ///< the leader's: called before TeamSettings::lost
 };
 
-/// What the leader knows of the work of a rank.
-struct RankWork {
-  std::string host;
-  std::uint64_t blocks = 0, rays = 0;
-  double seconds = 0;  ///< of its threads' rendering, together
-};
-
 /// Letters and bytes that a rank has sent and received.
 struct TeamTraffic {
   std::uint64_t letters = 0, bytes = 0;
@@ -67,9 +61,9 @@ class Team {
   Team& operator=(const Team&) = delete;
   ~Team();
 
-  [[nodiscard]] int rank() const { return rank_; }
-  [[nodiscard]] int size() const { return size_; }
-  [[nodiscard]] bool leads() const { return rank_ == 0; }
+  [[nodiscard]] int rank() const { return ranks_.own(); }
+  [[nodiscard]] int size() const { return ranks_.size(); }
+  [[nodiscard]] bool leads() const { return ranks_.leads(); }
 
   /// Begins a picture, one after the other; all ranks the same, but for those that the leader
   /// skips.
@@ -108,17 +102,6 @@ class Team {
 
  private:
   using Clock = std::chrono::steady_clock;
-  struct Rank {
-    RankName name;
-    RankWork work;
-    Clock::time_point heard;
-    double patience = 0;
-    bool here = false, ended = false;
-    bool compared = false;  ///< its facts, with the leader's
-    int ready = -1;         ///< the picture that it is ready for
-    std::string facts;
-    std::size_t in_hand = 0, last_portion = 0;
-  };
   struct Given {
     std::uint32_t block;
     std::string part;
@@ -135,32 +118,25 @@ class Team {
   void work_until_left();
   void send(int to, const std::string& letter);
   void read(const Letter& letter);
-  void read_from_rank(LetterKind kind, Rank& rank, int number, ByteReader& letter);
+  void read_from_rank(LetterKind kind, KnownRank& rank, int number, ByteReader& letter);
   void read_from_leader(LetterKind kind, ByteReader& letter);
-  void read_result(Rank& rank, ByteReader& letter);
-  void take(Rank& rank, const Given& one);
+  void read_result(KnownRank& rank, ByteReader& letter);
+  void take(KnownRank& rank, const Given& one);
   void call_lost();
-  void check_facts(Rank& rank, int number);
-  [[nodiscard]] bool all_compared() const;
+  void check_facts(KnownRank& rank, int number);
   void deal();
-  void deal_to(Rank& rank, int number);
+  void deal_to(KnownRank& rank, int number);
   void send_results();
   void take_own();
   void beat();
   void check_ranks();
-  void lose(int number, const std::string& what);
   void fail(const std::string& why);
   void finish_picture();
   void answer_frame(int number);
-  std::string called(int number) const;
-  [[nodiscard]] int all_threads() const;
-  [[nodiscard]] bool all_ended() const;
 
   const TeamSettings settings_;
   std::unique_ptr<Post> post_;  ///< the team's thread's
-  int rank_ = 0, size_ = 1;
-  int gone_checks_ = 0;  ///< in how many checks the leader was gone
-  std::vector<Rank> ranks_;
+  TeamRanks ranks_;
 
   mutable std::mutex mutex_;  ///< of all below
   std::condition_variable changed_, to_send_;
@@ -175,7 +151,7 @@ class Team {
   std::size_t missing_ = 0;  ///< blocks that have not come back
   std::deque<std::uint32_t> queue_;
   std::vector<Given> given_;
-  Clock::time_point sent_, beaten_, checked_;
+  Clock::time_point sent_, beaten_;
   bool stopped_ = false, caught_ = false, caught_told_ = false;
   int stop_number_ = -1;  ///< the last picture that the leader has stopped
   double patience_ = 0;

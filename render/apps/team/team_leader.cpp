@@ -5,7 +5,7 @@
 
 namespace boule {
 
-void Team::read_from_rank(LetterKind kind, Rank& rank, int number, ByteReader& letter) {
+void Team::read_from_rank(LetterKind kind, KnownRank& rank, int number, ByteReader& letter) {
   if (kind == LetterKind::result) return read_result(rank, letter);
   const std::lock_guard lock(mutex_);
   switch (kind) {
@@ -15,7 +15,7 @@ void Team::read_from_rank(LetterKind kind, Rank& rank, int number, ByteReader& l
       rank.work.host = rank.name.host;
       rank.here = true;
       if (version != settings_.version) {
-        fail(called(number) + " is boule " + printable(version, 40) + ", rank 0 is boule " +
+        fail(ranks_.called(number) + " is boule " + printable(version, 40) + ", rank 0 is boule " +
              settings_.version);
       }
       break;
@@ -37,7 +37,7 @@ void Team::read_from_rank(LetterKind kind, Rank& rank, int number, ByteReader& l
       const int code = letter.get<int>();
       const auto text = letter.get<std::string>();
       if (code != 0 && failure_code_ == 0) {
-        fail(called(number) + " failed" + (text.empty() ? "" : ": " + text));
+        fail(ranks_.called(number) + " failed" + (text.empty() ? "" : ": " + text));
         failure_code_ = code;
       }
       break;
@@ -47,7 +47,7 @@ void Team::read_from_rank(LetterKind kind, Rank& rank, int number, ByteReader& l
   }
 }
 
-void Team::read_result(Rank& rank, ByteReader& letter) {
+void Team::read_result(KnownRank& rank, ByteReader& letter) {
   const int picture = letter.get<int>();
   while (letter.good() && !letter.at_end()) {
     Given one{};
@@ -60,7 +60,7 @@ void Team::read_result(Rank& rank, ByteReader& letter) {
 }
 
 /// Not under the mutex: it takes its time. Nothing is taken once the picture has ended.
-void Team::take(Rank& rank, const Given& one) {
+void Team::take(KnownRank& rank, const Given& one) {
   {
     const std::lock_guard lock(mutex_);
     if (stage_ != Stage::renders || missing_ == 0) return;
@@ -84,14 +84,14 @@ void Team::take_own() {
     const std::lock_guard lock(mutex_);
     own.swap(given_);
   }
-  for (const Given& one : own) take(ranks_.front(), one);
+  for (const Given& one : own) take(ranks_[0], one);
 }
 
 /// Under the mutex, as all functions below that do not say otherwise.
 void Team::deal() {
   for (const int number : std::exchange(frame_askers_, {})) answer_frame(number);
-  if (leaving_ && all_ended() && !may_leave_) {
-    for (int to = 1; to < size_; ++to) {
+  if (leaving_ && ranks_.all_ended() && !may_leave_) {
+    for (int to = 1; to < size(); ++to) {
       ByteWriter letter = letter_of(LetterKind::leave);
       letter.add(code_ != 0 ? code_ : failure_code_);
       outbox_.emplace_back(to, letter.take());
@@ -99,8 +99,8 @@ void Team::deal() {
     may_leave_ = true;
   }
   if (stage_ != Stage::renders || stopped_ || failure_code_ != 0) return;
-  for (int number = 0; number < size_; ++number) {
-    Rank& rank = ranks_[static_cast<std::size_t>(number)];
+  for (int number = 0; number < size(); ++number) {
+    KnownRank& rank = ranks_[number];
     if (rank.ready != number_) continue;
     if (!rank.facts.empty()) check_facts(rank, number);
     if (!std::exchange(rank.compared, true)) changed_.notify_all();
@@ -108,9 +108,9 @@ void Team::deal() {
   }
 }
 
-void Team::deal_to(Rank& rank, int number) {
+void Team::deal_to(KnownRank& rank, int number) {
   const int threads = std::max(rank.name.threads, 1);
-  const int all = std::max(all_threads(), threads);
+  const int all = std::max(ranks_.all_threads(), threads);
   while (dealer_->left() > 0 && dealer_->wants(rank.in_hand, rank.last_portion, threads, all)) {
     const auto blocks = dealer_->deal(threads, all);
     rank.in_hand += blocks.size();
@@ -126,15 +126,7 @@ void Team::deal_to(Rank& rank, int number) {
   }
 }
 
-/// Ranks that are not here yet count as if they had as many threads as this one.
-int Team::all_threads() const {
-  int all = 0;
-  for (const Rank& rank : ranks_)
-    all += std::max(rank.here ? rank.name.threads : settings_.name.threads, 1);
-  return all;
-}
-
-void Team::check_facts(Rank& rank, int number) {
+void Team::check_facts(KnownRank& rank, int number) {
   RunFacts facts;
   for (std::size_t at = 0; at < rank.facts.size();) {
     const auto line = [&] {
@@ -148,7 +140,7 @@ void Team::check_facts(Rank& rank, int number) {
   }
   rank.facts.clear();
   const std::string difference = find_difference(facts, picture_.facts);
-  if (!difference.empty()) fail(called(number) + " " + difference);
+  if (!difference.empty()) fail(ranks_.called(number) + " " + difference);
 }
 
 void Team::answer_frame(int number) {
@@ -160,7 +152,7 @@ void Team::answer_frame(int number) {
 }
 
 void Team::finish_picture() {
-  for (int to = 1; to < size_; ++to) {
+  for (int to = 1; to < size(); ++to) {
     ByteWriter letter = letter_of(LetterKind::stop);
     letter.put(number_, stopped_ || failure_code_ != 0);
     outbox_.emplace_back(to, letter.take());
@@ -174,56 +166,19 @@ void Team::fail(const std::string& why) {
   changed_.notify_all();
 }
 
-bool Team::all_ended() const {
-  return std::all_of(ranks_.begin(), ranks_.end(), [](const Rank& rank) { return rank.ended; });
-}
-
-/// Whether every other rank's facts were compared. One that ended before that has failed, or found
-/// no picture to begin.
-bool Team::all_compared() const {
-  return std::all_of(ranks_.begin() + 1, ranks_.end(),
-                     [](const Rank& rank) { return rank.compared || rank.ended; });
-}
-
-std::string Team::called(int number) const {
-  const RankName& name = ranks_[static_cast<std::size_t>(number)].name;
-  if (name.process == 0) return "rank " + std::to_string(number);
-  return "rank " + std::to_string(number) + " (process " + std::to_string(name.process) + " on " +
-         printable(name.host, 64) + ")";
-}
-
-/// Not under the mutex. The leader watches all, the others watch the leader.
+/// Not under the mutex. Nothing can be told to a rank that is lost, so all are ended.
 void Team::check_ranks() {
-  constexpr std::chrono::milliseconds interval{100};
-  const auto now = Clock::now();
-  if (now - checked_ < interval) return;
-  checked_ = now;
-  for (int number = 0; number < (leads() ? size_ : 1); ++number) {
-    const Rank& rank = ranks_[static_cast<std::size_t>(number)];
-    if (number == rank_ || rank.ended) continue;
-    if (rank.name.process != 0 && settings_.is_gone && settings_.is_gone(rank.name)) {
-      // A leader that ends all goes first itself, and has told why.
-      if (leads() || ++gone_checks_ > 10) return lose(number, "is gone");
-    }
-    const double silent = std::chrono::duration<double>(now - rank.heard).count();
-    if (silent > std::max(rank.patience, settings_.silence)) {
-      return lose(number, "has given no sign of life for " +
-                              std::to_string(static_cast<int>(silent)) + " s");
-    }
-  }
-}
-
-/// Not under the mutex. Nothing can be told to that rank, so all are ended.
-void Team::lose(int number, const std::string& what) {
+  const auto lost = ranks_.find_lost(settings_.silence, settings_.is_gone);
+  if (!lost) return;
   call_lost();
-  if (settings_.lost) settings_.lost(called(number) + " " + what);
+  if (settings_.lost) settings_.lost(ranks_.called(lost->number) + " " + lost->what);
   post_->end_all(1);
 }
 
 std::vector<RankWork> Team::work() const {
   const std::lock_guard lock(mutex_);
   std::vector<RankWork> all;
-  for (const Rank& rank : ranks_) all.push_back(rank.work);
+  for (const KnownRank& rank : ranks_) all.push_back(rank.work);
   all.front().host = settings_.name.host;
   return all;
 }
