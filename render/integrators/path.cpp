@@ -85,16 +85,16 @@ void Path::shade(const Block& block) {
 /// Finds the materials that the rays met, and adds the light that these emit.
 void Path::meet_materials(const Block& block) {
   std::uint32_t* const kinds = kinds_.data();
-  const LobeMaterial** const lobes = lobes_.data();
+  const FlatMaterial** const lobes = lobes_.data();
   std::fill_n(kinds, padded(block.end - block.first), std::uint32_t{0});
   for (auto k = static_cast<std::uint32_t>(block.first); k < block.end; ++k) {
     const Hit met = hit(k);
     if (met.id == no_primitive) continue;
     const PathMaterial& material = materials_.find(met);
     kinds[k - block.first] = static_cast<std::uint32_t>(material.kind);
-    lobes[k - block.first] = &material.lobes;
-    if (material.emits) radiance_.add(k, emitted(block.stream, k, met, material.constant));
-    if (delta_lights_ && material.takes_light) illumination_.add_point(k, material.lobes);
+    lobes[k - block.first] = &material.flat;
+    if (material.emits) radiance_.add(k, emitted(block.stream, k, met, material.flat.constant));
+    if (delta_lights_ && material.takes_light) illumination_.add_point(k, material.flat);
   }
 }
 

@@ -65,7 +65,7 @@ class Path final : public StreamIntegrator {
   SampledLights shadows_{};
   // Working memory of a block.
   AlignedArray<std::uint32_t> kinds_;       ///< by ray
-  std::vector<const LobeMaterial*> lobes_;  ///< by ray
+  std::vector<const FlatMaterial*> lobes_;  ///< by ray
   LobePointBuffer matte_, glossy_, clear_;
   GoingOn going_on_{};
   RandomNumbers light_numbers_, bounce_numbers_, roulette_numbers_;  ///< by point

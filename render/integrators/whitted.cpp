@@ -47,12 +47,12 @@ Whitted::Found Whitted::meet_materials(const Block& block) {
     const WhittedMaterial& material = materials_.find(met);
     radiance_.set(k, material.flat.constant);
     if (material.takes_light) {
-      illumination_.add_point(k, material.lobes);
+      illumination_.add_point(k, material.flat);
       found.lit = true;
     }
     if (last || !material.sends_on) continue;
     scatters_[k - block.first] = 1;
-    lobes_[k - block.first] = &material.lobes;
+    lobes_[k - block.first] = &material.flat;
     recorded_ = &material.flat;
     found.scattering = true;
   }

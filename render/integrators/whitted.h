@@ -35,7 +35,7 @@ class Whitted final : public StreamIntegrator {
   MaterialFinder<WhittedMaterial> materials_;
   // Working memory of one block.
   AlignedArray<std::uint8_t> scatters_;     ///< by ray
-  std::vector<const LobeMaterial*> lobes_;  ///< by ray
+  std::vector<const FlatMaterial*> lobes_;  ///< by ray
   const FlatMaterial* recorded_ = nullptr;  ///< the material at the hit of the only ray
 };
 

@@ -2,24 +2,9 @@
 
 #include "core/math/color.h"
 #include "core/scene/scene.h"
+#include "simd/abi/paths.h"
 
 namespace boule {
-
-/// Any material as the coefficients of one formula (Whitted 1980). A hit sends back
-///       constant + sum over lights of (diffuse (n.l) I + highlight (r.l)^shininess I)
-///       + mirror trace(reflected) + transmission trace(refracted).
-/// Coefficients that a material lacks are 0.
-struct FlatMaterial {
-  Color constant;                 ///< emission + C (ka + ambient)
-  Color diffuse;                  ///< C Kd
-  double highlight = 0;           ///< Ks of the white highlight; 0 if shininess is 0
-  double shininess = 0;           ///< Phong's exponent
-  Color mirror;                   ///< weight of the reflected ray (times F if `fresnel`)
-  Color transmission;             ///< weight of the refracted ray (times 1 - F if `fresnel`)
-  double ior = 1;                 ///< index of refraction, inside over outside
-  bool cosine_highlight = false;  ///< the highlight is multiplied by n.l, like a reflectance
-  bool fresnel = false;           ///< a dielectric: reflection and refraction share the light
-};
 
 /// A valid material under the scene's ambient light. Glass conserves energy: if a component of its
 /// colour is above 1, all its weights are divided by that component.

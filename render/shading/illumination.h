@@ -20,7 +20,7 @@ class Illumination {
   void start(std::size_t rays);
 
   /// Adds the hit of ray `ray` of the stream, which light may reach.
-  void add_point(std::size_t ray, const LobeMaterial& material) {
+  void add_point(std::size_t ray, const FlatMaterial& material) {
     lit_[ray] = 1;
     materials_[ray] = &material;
     any_ = true;
@@ -52,7 +52,7 @@ class Illumination {
   std::size_t size_ = 0;  ///< number of rays
   bool any_ = false;
   AlignedArray<std::uint8_t> lit_;              ///< by ray
-  std::vector<const LobeMaterial*> materials_;  ///< by ray
+  std::vector<const FlatMaterial*> materials_;  ///< by ray
   // By shadow ray:
   std::size_t shadow_count_ = 0;
   RayBuffer shadow_rays_;

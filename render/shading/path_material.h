@@ -2,21 +2,8 @@
 
 #include "core/optics/lobes.h"
 #include "render/prepare/flat_material.h"
-#include "simd/abi/paths.h"
 
 namespace boule {
-
-/// A material for the kernels.
-inline LobeMaterial lobe_material(const FlatMaterial& m) {
-  return {{m.diffuse.r, m.diffuse.g, m.diffuse.b, 0},
-          {m.mirror.r, m.mirror.g, m.mirror.b, 0},
-          {m.transmission.r, m.transmission.g, m.transmission.b, 0},
-          m.highlight,
-          m.shininess,
-          m.ior,
-          m.fresnel,
-          m.cosine_highlight};
-}
 
 /// The kind of a material of flatten_for_paths(), by which its points are sorted.
 inline LobeKind lobe_kind(const FlatMaterial& m) {
@@ -27,28 +14,22 @@ inline LobeKind lobe_kind(const FlatMaterial& m) {
 /// A material for Whitted's method.
 struct WhittedMaterial {
   FlatMaterial flat;
-  LobeMaterial lobes;
   bool takes_light, sends_on;  ///< takes_direct_light(), scatters()
 
   explicit WhittedMaterial(const FlatMaterial& m)
-      : flat(m),
-        lobes(lobe_material(m)),
-        takes_light(takes_direct_light(m)),
-        sends_on(scatters(m)) {}
+      : flat(m), takes_light(takes_direct_light(m)), sends_on(scatters(m)) {}
 };
 
 /// A material for path tracing.
 struct PathMaterial {
-  LobeMaterial lobes;
-  Color constant;
+  FlatMaterial flat;
   LobeKind kind;
   bool emits;        ///< the constant is above black; then it reflects nothing
   bool takes_light;  ///< takes_direct_light(), unless it emits
 
   /// From a material of flatten_for_paths().
   explicit PathMaterial(const FlatMaterial& m)
-      : lobes(lobe_material(m)),
-        constant(m.constant),
+      : flat(m),
         kind(is_black(m.constant) ? lobe_kind(m) : LobeKind::none),
         emits(!is_black(m.constant)),
         takes_light(!emits && takes_direct_light(m)) {}

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "core/math/color.h"
 #include "simd/abi/shading.h"
 
 namespace boule {
@@ -34,13 +35,20 @@ struct WeightedLight {
   std::size_t size;
 };
 
-/// A material as the coefficients of one formula: CoefficientsOf (core/optics/reflectance.h). The
-/// fourth number of a colour is 0.
-struct LobeMaterial {
-  float diffuse[4], mirror[4], transmission[4];
-  double highlight, shininess, ior;
-  bool fresnel;
-  bool cosine_highlight;
+/// Any material as the coefficients of one formula (Whitted 1980). A hit sends back
+///       constant + sum over lights of (diffuse (n.l) I + highlight (r.l)^shininess I)
+///       + mirror trace(reflected) + transmission trace(refracted).
+/// Coefficients that a material lacks are 0. Kernels read four numbers of a colour and use three.
+struct FlatMaterial {
+  Color constant;                 ///< emission + C (ka + ambient)
+  Color diffuse;                  ///< C Kd
+  double highlight = 0;           ///< Ks of the white highlight; 0 if shininess is 0
+  double shininess = 0;           ///< Phong's exponent
+  Color mirror;                   ///< weight of the reflected ray (times F if `fresnel`)
+  Color transmission;             ///< weight of the refracted ray (times 1 - F if `fresnel`)
+  double ior = 1;                 ///< index of refraction, inside over outside
+  bool cosine_highlight = false;  ///< the highlight is multiplied by n.l, like a reflectance
+  bool fresnel = false;           ///< a dielectric: reflection and refraction share the light
 };
 
 /// An emitting sphere: a sphere light, or an emissive sphere. Light sampling picks it by random
@@ -100,7 +108,7 @@ struct GivenLight {
 
 /// The way in which the paths of a block continue. Materials are by ray of the block.
 struct PathStep {
-  const LobeMaterial* const* material;
+  const FlatMaterial* const* material;
   std::uint32_t first_ray;  ///< index of the block's first ray in its stream
   bool samples_lights;
   bool goes_on;  ///< paths get another direction

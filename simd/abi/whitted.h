@@ -16,7 +16,7 @@ struct ScatteringHits {
   const std::uint8_t* scatters;         ///< 1: rays continue from this hit; 0 otherwise, also up to
                                         ///< padded(size)
   SurfaceStream surfaces;               ///< of hits that scatter
-  const LobeMaterial* const* material;  ///< of hits that scatter
+  const FlatMaterial* const* material;  ///< of hits that scatter
   const std::int32_t* id;               ///< id of the primitive that was hit
   std::int32_t first_plane;             ///< the lowest id of a plane
   std::uint32_t planes;                 ///< how many there are; all others have an inside
@@ -42,7 +42,7 @@ struct ShadowedPoints {
   const std::uint32_t* ray;     ///< by shadow ray: index of the ray of its point; each occurs once
   std::size_t size;
   VectorStream point, mirrored;         ///< by ray, as in Surface
-  const LobeMaterial* const* material;  ///< by ray
+  const FlatMaterial* const* material;  ///< by ray
 };
 
 }  // namespace boule

@@ -15,7 +15,7 @@ BEGIN {
   layer(formulas, formulas, kernel_std)
   layer("^core/base/memory_pages\\.cpp$", "^core/", plain_std "|^<(sys/mman|unistd)\\.h>$")
   layer("^core/", "^core/", plain_std)
-  layer("^simd/abi/", "^(simd/abi/|core/(base/platform|math/(ray|vec)|optics/(camera|lens)_view)\\.h$)", kernel_std)
+  layer("^simd/abi/", "^(simd/abi/|core/(base/platform|math/(color|ray|vec)|optics/(camera|lens)_view)\\.h$)", kernel_std)
   layer("^simd/(geometry|stream)/", "^(core|simd/(abi|geometry|stream))/", plain_std)
   layer("^simd/points/", "^(core|simd/(abi|geometry|points))/", plain_std)
   layer("^simd/lanes/", formulas "|^simd/(abi|lanes)/", kernel_std "|^<xsimd/")

@@ -176,8 +176,9 @@ TEST_P(KernelBadInput, RaysOfOddCamerasAreHarmless) {
 TEST_P(KernelBadInput, InvalidLightsGiveNoLight) {
   constexpr std::size_t count = 20;
   const double odd[] = {double{nan}, double{inf}, 0};
-  const LobeMaterial white{{1, 1, 1, 0}, {}, {}, 0, 0, 1, false, false};
-  std::vector<const LobeMaterial*> materials(count, &white);
+  FlatMaterial white;
+  white.diffuse = gray(1);
+  std::vector<const FlatMaterial*> materials(count, &white);
   const AlignedArray<double> half(count, 0.5);
   LobePointBuffer buffer(count);
   SampledLightBuffer shadow_buffer;

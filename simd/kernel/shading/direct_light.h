@@ -12,7 +12,7 @@
 namespace boule::BOULE_KERNEL_ISA {
 
 /// The coefficients that direct light needs.
-BOULE_INLINE CoefficientsOf<Wide> light_coefficients(const LobeMaterial* const* of_lane) {
+BOULE_INLINE CoefficientsOf<Wide> light_coefficients(const FlatMaterial* const* of_lane) {
   CoefficientsOf<Wide> loaded{};
   if (are_one(of_lane)) {
     loaded.diffuse = in_all_lanes(of_lane[0]->diffuse);
@@ -23,7 +23,7 @@ BOULE_INLINE CoefficientsOf<Wide> light_coefficients(const LobeMaterial* const* 
   const float* diffuse[width];
   alignas(64) double numbers[2][width];
   for (std::size_t lane = 0; lane < width; ++lane) {
-    diffuse[lane] = of_lane[lane]->diffuse;
+    diffuse[lane] = &of_lane[lane]->diffuse.r;
     numbers[0][lane] = of_lane[lane]->highlight;
     numbers[1][lane] = of_lane[lane]->shininess;
   }
@@ -61,7 +61,7 @@ class LitLanes {
     return {load(picked[0]), load(picked[1]), load(picked[2])};
   }
 
-  BOULE_INLINE void pick_materials(const LobeMaterial** of_lane) const {
+  BOULE_INLINE void pick_materials(const FlatMaterial** of_lane) const {
     for (std::size_t lane = 0; lane < width; ++lane) of_lane[lane] = shadows_.material[ray_[lane]];
   }
 
@@ -105,7 +105,7 @@ class LitLanes {
 };
 
 /// The lanes whose highlight is multiplied by n.l.
-BOULE_INLINE WideMask cosine_highlights(const LobeMaterial* const* of_lane) {
+BOULE_INLINE WideMask cosine_highlights(const FlatMaterial* const* of_lane) {
   std::uint8_t set[width];
   for (std::size_t lane = 0; lane < width; ++lane)
     set[lane] = of_lane[lane]->cosine_highlight ? 1 : 0;
@@ -128,7 +128,7 @@ BOULE_INLINE void add_direct_light(const LightIntensity& light, const ShadowedPo
         first_lanes(shadows.size - first) & ~bits(load_set(shadows.blocked + first));
     if (live == 0) continue;
     const LitLanes lanes(shadows, first, live);
-    const LobeMaterial* of_lane[width];
+    const FlatMaterial* of_lane[width];
     lanes.pick_materials(of_lane);
     const CoefficientsOf<Wide> material = light_coefficients(of_lane);
     const Wide cosine = load(shadows.cosine + first);

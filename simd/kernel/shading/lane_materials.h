@@ -20,17 +20,17 @@ BOULE_INLINE void pick_live(const T* of_packet, unsigned live, T* picked) {
 }
 
 /// Whether all lanes have the same material, as is usual for neighbours.
-BOULE_INLINE bool are_one(const LobeMaterial* const* of_lane) {
+BOULE_INLINE bool are_one(const FlatMaterial* const* of_lane) {
   bool one = true;
   for (std::size_t lane = 1; lane < width; ++lane) one &= of_lane[lane] == of_lane[0];
   return one;
 }
 
-BOULE_INLINE Vec3<Real> in_all_lanes(const float* color) { return {color[0], color[1], color[2]}; }
+BOULE_INLINE Vec3<Real> in_all_lanes(const Color& color) { return {color.r, color.g, color.b}; }
 
 /// One material in all lanes.
 template <LobeKind kind>
-BOULE_INLINE CoefficientsOf<Wide> load_material(const LobeMaterial& material) {
+BOULE_INLINE CoefficientsOf<Wide> load_material(const FlatMaterial& material) {
   if constexpr (kind == LobeKind::matte) {
     return {in_all_lanes(material.diffuse), {}, {}, {}, {}, {}, {}};
   } else {
@@ -47,17 +47,17 @@ BOULE_INLINE CoefficientsOf<Wide> load_material(const LobeMaterial& material) {
 
 /// The materials of W points.
 template <LobeKind kind>
-BOULE_INLINE CoefficientsOf<Wide> load_materials(const LobeMaterial* const* of_lane) {
+BOULE_INLINE CoefficientsOf<Wide> load_materials(const FlatMaterial* const* of_lane) {
   if (are_one(of_lane)) return load_material<kind>(*of_lane[0]);
   const float *diffuse[width], *mirror[width], *transmission[width];
   alignas(64) double numbers[3][width];
   std::uint8_t fresnel[width];
   for (std::size_t lane = 0; lane < width; ++lane) {
-    const LobeMaterial& material = *of_lane[lane];
-    diffuse[lane] = material.diffuse;
+    const FlatMaterial& material = *of_lane[lane];
+    diffuse[lane] = &material.diffuse.r;
     if constexpr (kind != LobeKind::matte) {
-      mirror[lane] = material.mirror;
-      transmission[lane] = material.transmission;
+      mirror[lane] = &material.mirror.r;
+      transmission[lane] = &material.transmission.r;
       numbers[0][lane] = material.highlight;
       numbers[1][lane] = material.shininess;
       numbers[2][lane] = material.ior;

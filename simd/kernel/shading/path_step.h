@@ -214,7 +214,7 @@ BOULE_INLINE void continue_points(const LobePoints& points, const PathStep& step
     const unsigned lanes = first_lanes(points.size - first);
     std::uint32_t ray[width];
     pick_live(points.ray + first, lanes, ray);
-    const LobeMaterial* of_lane[width];
+    const FlatMaterial* of_lane[width];
     for (std::size_t lane = 0; lane < width; ++lane) of_lane[lane] = step.material[ray[lane]];
     const CoefficientsOf<Wide> material = load_materials<kind>(of_lane);
     const IncidenceOf<Wide> met = load_incidence<kind>(points, first);

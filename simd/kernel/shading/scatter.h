@@ -81,7 +81,7 @@ BOULE_INLINE void add_both_sides(const ScatteringHits& hits, std::size_t first,
 
 BOULE_INLINE void scatter_packet(const ScatteringHits& hits, std::size_t first, unsigned live,
                                  GoingOn& spawned) {
-  const LobeMaterial* of_lane[width];
+  const FlatMaterial* of_lane[width];
   pick_live(hits.material + first, live, of_lane);
   const CoefficientsOf<Wide> material = load_materials<LobeKind::clear>(of_lane);
   const SurfaceStream& found = hits.surfaces;

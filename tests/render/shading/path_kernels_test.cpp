@@ -89,7 +89,7 @@ class PathKernels : public OnEachIsa {
     for (std::size_t i = 0; i < count; ++i) {
       if (hits.get(i).id == no_primitive) continue;
       const PathMaterial& material = met[scene.material_ref(hits.get(i)).index()];
-      lobes[i] = &material.lobes;
+      lobes[i] = &material.flat;
       kinds[i] = static_cast<std::uint32_t>(material.kind);
     }
   }
@@ -131,7 +131,7 @@ class PathKernels : public OnEachIsa {
   AlignedArray<float> density;
   AlignedArray<std::uint32_t> kinds, sample;
   std::vector<PathMaterial> met;
-  std::vector<const LobeMaterial*> lobes;
+  std::vector<const FlatMaterial*> lobes;
   std::vector<Written> shadows, bounces;  ///< expected
 };
 

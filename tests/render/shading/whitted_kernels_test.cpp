@@ -45,7 +45,7 @@ class WhittedKernels : public OnEachIsa {
   }
   void set_material(std::size_t i, const WhittedMaterial& material) {
     of_ray[i] = &material;
-    lobes[i] = &material.lobes;
+    lobes[i] = &material.flat;
   }
 
   [[nodiscard]] bool is_hit(std::size_t i) const { return hits.get(i).id != no_primitive; }
@@ -83,7 +83,7 @@ class WhittedKernels : public OnEachIsa {
   HitBuffer hits;
   SurfaceBuffer surfaces;
   std::vector<const WhittedMaterial*> of_ray;
-  std::vector<const LobeMaterial*> lobes;
+  std::vector<const FlatMaterial*> lobes;
   // By shadow ray:
   VectorBuffer to_light;
   AlignedArray<double> cosine;
