@@ -120,6 +120,7 @@ struct BandWriter::State {
   std::string path;
   const ImageFormat* format = nullptr;
   float exposure_stops = 0;
+  std::shared_ptr<const PixelLayer> layer;
   std::function<void(const std::string&)> temporary;
   std::unique_ptr<ImagePlan> plan;
   std::optional<OutputFile> file;  ///< none: it is the caller's
@@ -165,6 +166,7 @@ Status BandWriter::State::put(const Image& band, const std::vector<ImageChannel>
   }
   std::vector<std::uint8_t> codes;
   if (!format->hdr) codes = tone_map(band, exposure_stops);
+  if (layer) draw_over(*layer, rows, band.alpha.empty() ? 3 : 4, codes);
   const auto samples = samples_of(band, channels, format->hdr, codes);
   module::Report report{};
   table->put(writer, samples.data(), band.height, &report);
@@ -202,6 +204,7 @@ Result<BandWriter> BandWriter::open(const ImageForm& form, const std::string& pa
     if (!plan) return plan.error();
     state->plan = std::move(plan).value();
     state->exposure_stops = options.exposure_stops;
+    state->layer = options.layer;
     state->temporary = options.temporary;
     // The file comes first, so that a missing folder is reported without loading anything.
     Result<OutputFile> created = OutputFile::create(path, options.stop);
@@ -224,6 +227,7 @@ Result<BandWriter> BandWriter::open_png(const ImageForm& form, const OpenFile& f
     if (!plan) return plan.error();
     state->plan = std::move(plan).value();
     state->exposure_stops = options.exposure_stops;
+    state->layer = options.layer;
     if (auto done = state->begin(file.descriptor, options.threads); !done) return done.error();
     return BandWriter(std::move(state));
   });

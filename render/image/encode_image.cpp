@@ -65,7 +65,12 @@ Result<std::string> encode_plain(const Image& image, StreamFormat format, const 
   if (format == StreamFormat::ppm) {
     bytes = "P6\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n255\n";
   }
-  const std::vector<std::uint8_t> codes = tone_map(image, options.exposure_stops);
+  std::vector<std::uint8_t> codes = tone_map(image, options.exposure_stops);
+  if (options.layer) {
+    if (options.layer->width != image.width || options.layer->height != image.height)
+      return cannot_write(name, "the overlay is not as large as the picture");
+    draw_over(*options.layer, 0, 3, codes);
+  }
   bytes.append(codes.begin(), codes.end());
   return bytes;
 }

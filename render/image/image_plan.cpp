@@ -57,6 +57,14 @@ std::string find_reason(const ImageForm& form, const ImageFileOptions& options,
   if (!form.channels.empty() && !format->channels) {
     return std::string("a .") + format->extension + " file has no room for extra channels";
   }
+  if (const auto& layer = options.layer; layer) {
+    if (format->hdr)
+      return std::string("a .") + format->extension +
+             " file has no overlay: its "
+             "colours are not those that are shown";
+    if (layer->width != form.width || layer->height != form.height)
+      return "the overlay is not as large as the picture";
+  }
   return channel_problem(form);
 }
 

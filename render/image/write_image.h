@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "core/scene/names.h"
 #include "render/image/image.h"
 #include "render/image/image_format.h"
+#include "render/image/pixel_layer.h"
 
 namespace boule {
 
@@ -53,6 +55,8 @@ struct ImageFileOptions {
   std::vector<ImageChannel> channels{};           ///< formats without channels refuse them
   std::string date_time = "1970:01:01 00:00:00";  ///< the header's DateTime, in EXIF notation
   Metadata metadata{};           ///< an entry replaces the standard one of its name
+  /// LDR formats: drawn over the picture, whose size it has; null: none. HDR formats refuse it.
+  std::shared_ptr<const PixelLayer> layer{};
   int threads = 1;               ///< for compression, 1 .. 256; others are clamped to this range
   std::function<bool()> stop{};  ///< called from time to time; true cancels the writing
   /// Called with the temporary file's name once that file exists, and with an empty name once it is

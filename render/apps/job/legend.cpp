@@ -60,20 +60,11 @@ void Legend::add_text(double x, double y, const std::string& text) {
 }
 
 void Legend::add_ticks(double left, double top, double low, double high) {
-  const std::vector<double> ticks = ticks_within(low, high);
-  const double step = ticks.size() > 1 ? ticks[1] - ticks[0] : high - low;
-  const double size = std::max(std::fabs(low), std::fabs(high));
-  const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 300);
-  const bool is_short = size < 1e6 && digits <= 6;
-  for (const double tick : ticks) {
-    const double y = top + bar_height * (high - tick) / (high - low);
+  for (const auto& [number, text] : legend_ticks(low, high)) {
+    const double y = top + bar_height * (high - number) / (high - low);
     parts_ +=
         fmt::format("<path d=\"M{:.1f} {:.2f}h{:.1f}\" stroke=\"#222\"/>\n", left, y, tick_length);
-    // Numbers that differ in their last digits only need these.
-    const int precise = std::clamp(static_cast<int>(std::ceil(std::log10(size / step))) + 1, 1, 17);
-    add_text(
-        left + tick_length + 4, y,
-        is_short ? fmt::format("{:.{}f}", tick, digits) : fmt::format("{:.{}g}", tick, precise));
+    add_text(left + tick_length + 4, y, text);
   }
 }
 
@@ -95,7 +86,6 @@ void Legend::add_scale(const ParticleColors::Scale& scale) {
       border, top, bar_width, bar_height, gradients_++);
   add_ticks(border + bar_width, top, low, high);
   height_ = top + bar_height + text_size;
-  if (scale.missing > 0) add_species({{"missing", scale.nan_color, scale.missing}});
 }
 
 void Legend::add_species(const std::vector<ParticleColors::Species>& all) {
@@ -110,9 +100,8 @@ void Legend::add_species(const std::vector<ParticleColors::Species>& all) {
         "stroke-width=\"0.75\"/>\n",
         left + dot_radius, y, dot_radius, hex_text(all[i].color));
     const double text = left + 2 * dot_radius + 8;
-    const std::string name = all[i].name.empty() ? "missing" : all[i].name;
-    add_text(text, y, name);
-    right = std::max(right, text + width_of(name));
+    add_text(text, y, all[i].name);
+    right = std::max(right, text + width_of(all[i].name));
   }
   height_ += static_cast<double>(rows) * row_height;
 }
@@ -145,11 +134,37 @@ std::vector<double> ticks_within(double low, double high) {
   return ticks;
 }
 
+std::vector<LegendTick> legend_ticks(double low, double high) {
+  const std::vector<double> numbers = ticks_within(low, high);
+  const double step = numbers.size() > 1 ? numbers[1] - numbers[0] : high - low;
+  const double size = std::max(std::fabs(low), std::fabs(high));
+  const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 300);
+  const bool is_short = size < 1e6 && digits <= 6;
+  // Numbers that differ in their last digits only need these.
+  const int precise = std::clamp(static_cast<int>(std::ceil(std::log10(size / step))) + 1, 1, 17);
+  std::vector<LegendTick> ticks;
+  for (const double number : numbers) {
+    ticks.push_back({number, is_short ? fmt::format("{:.{}f}", number, digits)
+                                      : fmt::format("{:.{}g}", number, precise)});
+  }
+  return ticks;
+}
+
+std::vector<ParticleColors::Species> legend_rows(const ParticleColors& colors) {
+  std::vector<ParticleColors::Species> rows = colors.species;
+  if (colors.scale && colors.scale->missing > 0)
+    rows.push_back({"", colors.scale->nan_color, colors.scale->missing});
+  for (auto& row : rows) {
+    if (row.name.empty()) row.name = "missing";
+  }
+  return rows;
+}
+
 std::string legend_svg(const std::vector<ParticleColors>& colors) {
   Legend legend;
   for (const ParticleColors& one : colors) {
     if (one.scale) legend.add_scale(*one.scale);
-    if (!one.species.empty()) legend.add_species(one.species);
+    if (const auto rows = legend_rows(one); !rows.empty()) legend.add_species(rows);
   }
   return legend.empty() ? std::string() : legend.svg();
 }

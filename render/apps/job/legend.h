@@ -16,4 +16,16 @@ std::string legend_svg(const std::vector<ParticleColors>& colors);
 /// Precondition: low < high, both finite.
 std::vector<double> ticks_within(double low, double high);
 
+/// A number of a legend's axis, and how it is written.
+struct LegendTick {
+  double number;
+  std::string text;
+};
+/// Those of an axis. Precondition: as of ticks_within().
+std::vector<LegendTick> legend_ticks(double low, double high);
+
+/// The list of a legend: the kinds, or below a bar what has no number. A kind without a name is
+/// "missing".
+std::vector<ParticleColors::Species> legend_rows(const ParticleColors& colors);
+
 }  // namespace boule

@@ -95,6 +95,12 @@ inline auto picture_choices() {
                 TextRule{parse_outline, "0 to 100 pixels, or points such as 0.5pt"}, "W",
                 "Dark lines where what is seen changes, W pixels wide, or points as in 0.5pt (0; "
                 "printed at least 0.35pt where the scene has some)"),
+      choice<J>(picture, "overlay", &J::overlay,
+                TextRule{parse_overlay, "some of " + list_overlay_parts() + ", each once", ',',
+                         hint_overlay},
+                "PARTS",
+                "Drawn on the picture, of 8 bits, or as vectors in PDF and SVG: any of " +
+                    list_overlay_parts()),
       choice<J>(picture, "seed", &J::seed,
                 TextRule{parse_seed, "a whole number from 0 to 18446744073709551615"}, "N",
                 "Seed of the random numbers (0)", &O::seed),

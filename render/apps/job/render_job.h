@@ -6,6 +6,7 @@
 
 #include "core/math/srgb.h"
 #include "core/scene/scene.h"
+#include "render/apps/job/overlay/overlay_facts.h"
 #include "render/apps/job/particle_look.h"
 #include "render/files/scene_file/loaded/loaded_scene.h"
 #include "render/frame/pixel_order.h"
@@ -85,6 +86,7 @@ struct RenderJob : SceneJob {
   std::optional<PixelFilter> filter{};
   std::optional<BackgroundChoice> background{};
   std::optional<OutlineWidth> outline{};
+  OverlayParts overlay{};  ///< drawn on the finished picture
   std::uint64_t seed = 0;
   std::optional<PixelRect> crop{};
   AovSelection aovs{};

@@ -9,6 +9,7 @@
 #include "render/apps/cli/report/picture_stream.h"
 #include "render/apps/cli/report/run_report.h"
 #include "render/apps/job/legend.h"
+#include "render/apps/job/overlay/overlay.h"
 #include "render/image/image_format.h"
 
 namespace boule::cli {
@@ -29,19 +30,41 @@ Status check_legend(const RenderCommand& command, const std::vector<ParticleColo
   return done;
 }
 
+/// An error if the picture cannot have what is drawn on it.
+Status check_overlay(const RenderCommand& command, const ImageFormat& format) {
+  if (is_page_name(command.output) && command.skip_existing)
+    return wrong_option("a page, .pdf or .svg, cannot be read back", "--skip-existing");
+  if (command.overlay.empty() || !format.hdr) return {};
+  return wrong_option(std::string("a .") + format.extension +
+                          " file has colours before tone mapping, which nothing is drawn on; "
+                          "expected --output to be a .png, .jpg, .pdf or .svg file, for example",
+                      "--overlay");
+}
+
 }  // namespace
+
+bool needs_overlay_module(const RenderCommand& command) {
+  const bool is_page = is_page_name(command.output);
+  return !command.overlay.empty() || (is_page && !command.output.ends_with(".svg"));
+}
 
 Status check_command(const RenderCommand& command) {
   if (auto done = check_part_options(command); !done) return done;
+  if (command.shard && !command.overlay.empty()) {
+    return wrong_option(
+        "is drawn on finished pictures, not on a shard; boule merge does not know the scene",
+        "--overlay");
+  }
   if (command.shard) return check_run(command, command, "film", {command.scene});
   if (auto done = check_picture_stream(command); !done) return done;
   const ImageFormat* const format = picture_format(command);
   if (format == nullptr) {
     return wrong_option("no picture format has the extension of " + quote(command.output) +
                             ", expected one of " + known_image_extensions() +
-                            ", or a movie: .mp4, .webm, .gif",
+                            ", a page: pdf, svg, or a movie: .mp4, .webm, .gif",
                         "--output");
   }
+  if (auto done = check_overlay(command, *format); !done) return done;
   if (command.aovs.any() && !format->channels) {
     return wrong_option(
         std::string("a .") + format->extension +

@@ -43,7 +43,8 @@ PictureShape shape_of(const RenderOptions& options) {
 /// is kept or shown unfinished is in memory as a whole, and so is what goes into a pipe.
 bool comes_in_bands(const RenderCommand& command) {
   return !command.partial && !command.checkpoint && !command.shard && !command.aovs.any() &&
-         !is_stream(command.output) && command.output != standard_output;
+         !is_stream(command.output) && command.output != standard_output &&
+         command.overlay.empty() && !is_page_name(command.output);
 }
 
 /// The job's options, and what this program does besides.
@@ -96,6 +97,9 @@ ExitCode Rendering::run() {
   date_ = std::move(date).value();
   if (auto done = writes() ? check_outputs(command_) : Status(); !done)
     return refuse(done.error(), command_, failed);
+  if (auto done = writes() && needs_overlay_module(command_) ? check_overlay_module() : Status();
+      !done)
+    return refuse(done.error(), command_, failed);
   std::optional<Renderer> renderer;
   const ExitCode prepared = prepare(renderer);
   // The error is reported. The image module may still be loading: to wait for it would take time,
@@ -106,6 +110,10 @@ ExitCode Rendering::run() {
     // A camera that nobody could have set need not be told of.
     if (!loader_.is_made() || text != camera_note) report_.note_once("boule: note: " + text);
   }
+  const CameraView& view = renderer->scene().camera_view;
+  add_camera(renderer->scene().camera, view, renderer->options().width, overlay_);
+  for (const std::string& text : overlay_notes(overlay_, view))
+    report_.note_once("boule: note: " + text);
   return render(*renderer);
 }
 
@@ -122,6 +130,10 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
     return refuse(done.error(), command_, wrong_usage);
   Scene& scene = loaded.value().scene;
   origin_ = loaded.value().origin;
+  overlay_ = overlay_facts(command_.overlay, loaded.value().particles,
+                           command_.turn ? std::nullopt : command_.frame);
+  overlay_.colors = loader_.colors();
+  overlay_.pixels_per_point = size_choice(command_).pixels_per_inch() / 72;
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
   live_.start_stage("preparing " + printable(command_.scene));

@@ -15,6 +15,7 @@
 #include "render/apps/cli/report/live_report.h"
 #include "render/apps/cli/report/run_report.h"
 #include "render/apps/cli/report/stats.h"
+#include "render/apps/job/overlay/overlay.h"
 #include "render/apps/job/picture_header.h"
 #include "render/apps/job/scene_loader.h"
 #include "render/files/scene_file/scene_file.h"
@@ -70,6 +71,7 @@ class Rendering {
   [[nodiscard]] bool writes() const { return team_ == nullptr || team_->leads(); }
   ExitCode explain(const Diagnostic& error) const;
   ExitCode write(const Image& image, ImageFileOptions options);
+  Status write_shown(const Image& image, ImageFileOptions file) const;
   /// Calls write(options), with what it must do at signals.
   template <class Write>
   Status guarded_write(ImageFileOptions options, const Write& write);
@@ -91,6 +93,7 @@ class Rendering {
   std::uint64_t scene_hash_ = 0;
   Vec3d origin_;                           ///< that the scene's points are counted from
   std::optional<PartialSamples> partial_;  ///< none: the picture is finished
+  OverlayFacts overlay_;
   std::optional<NoiseReached> noise_;      ///< none: it was not measured
   std::optional<Checkpoint> checkpoint_;
   std::optional<RenderStatistics> of_team_;  ///< what all ranks traced

@@ -109,14 +109,24 @@ Status Rendering::guarded_write(ImageFileOptions options, const Write& write) {
   return status;
 }
 
+/// The picture with its overlay.
+Status Rendering::write_shown(const Image& image, ImageFileOptions file) const {
+  if (is_page_name(command_.output)) return write_page(image, overlay_, command_.output, file);
+  if (!overlay_.parts.empty()) {
+    auto layer = overlay_layer(overlay_, image, file.exposure_stops);
+    if (!layer) return layer.error();
+    file.layer = std::move(layer).value();
+  }
+  return command_.output == standard_output
+             ? send_picture(image, *command_.format, command_.movie, file)
+             : write_image(image, command_.output, file);
+}
+
 ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
   const Stopwatch watch;
   const int caught = StopGuard::caught();
-  const Status status = guarded_write(std::move(options), [&](const ImageFileOptions& file) {
-    return command_.output == standard_output
-               ? send_picture(image, *command_.format, command_.movie, file)
-               : write_image(image, command_.output, file);
-  });
+  const Status status = guarded_write(
+      std::move(options), [&](const ImageFileOptions& file) { return write_shown(image, file); });
   exit_if_interrupted();
   if (!status && StopGuard::caught() != caught) leave_as_caught();
   stats_.write_seconds = watch.seconds();

@@ -12,6 +12,7 @@
 #include "render/apps/cli/process/interrupt.h"
 #include "render/apps/cli/report/movie.h"
 #include "render/apps/cli/report/run_report.h"
+#include "render/apps/job/overlay/overlay.h"
 #include "render/image/encode_image.h"
 #include "render/image/output_file.h"
 
@@ -74,11 +75,13 @@ Status check_picture_stream(const RenderCommand& command) {
 }
 
 const ImageFormat* picture_format(const RenderCommand& command) {
+  if (is_page_name(command.output)) return find_image_format("picture.png");
   if (command.output != standard_output) return find_image_format(command.output);
   return find_image_format(command.format == StreamFormat::png ? "picture.png" : "picture.ppm");
 }
 
 std::optional<std::string> file_to_encode(const RenderCommand& command) {
+  if (is_page_name(command.output)) return "picture.png";
   if (command.output != standard_output) return command.output;
   return command.format == StreamFormat::png ? std::optional(stream_name + ".png") : std::nullopt;
 }

@@ -24,6 +24,8 @@ struct ParticleColors {
     std::array<double, 2> range{};  ///< the chosen range
     SrgbColor nan_color = missing_color;
     std::size_t missing = 0;  ///< particles without a number, of that colour
+    /// Whether some numbers lie below and above the range; of a series, whether they may.
+    bool goes_below = false, goes_above = false;
   };
   /// The shown species, in the order of the file; or the texts of another column that distinguishes
   /// particles. Empty for other rules.

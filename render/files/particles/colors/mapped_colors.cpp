@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "core/base/chunks.h"
@@ -54,7 +53,11 @@ Result<ParticleMaterials> map_numbers(const ColoredFrame& colored, const MappedC
   made.colors.scale = {mapped.by, mapped.map, range, nan_color};
   made.materials.values.resize(colored.frame.size());
   const RangePlace place(range);
-  std::vector<std::size_t> missing(chunks_of(made.materials.values.size()));
+  struct Outside {
+    std::size_t missing = 0;
+    bool below = false, above = false;
+  };
+  std::vector<Outside> outside(chunks_of(made.materials.values.size()));
   in_chunks(colored.parallel_for, made.materials.values.size(),
             [&](std::size_t chunk, std::size_t begin, std::size_t end) {
               std::vector<double> block(end - begin);
@@ -62,13 +65,22 @@ Result<ParticleMaterials> map_numbers(const ColoredFrame& colored, const MappedC
               for (std::size_t i = begin; i < end; ++i) {
                 const double number = block[i - begin];
                 const bool is_missing = std::isnan(number);
-                missing[chunk] += is_missing ? 1 : 0;
+                Outside& found = outside[chunk];
+                found.missing += is_missing ? 1 : 0;
+                found.below = found.below || number < range[0];
+                found.above = found.above || number > range[1];
                 made.materials.values[i] =
                     colored.in(is_missing ? nan_color : mapped.map.color(place(number)));
               }
             });
-  made.colors.scale->missing = std::accumulate(missing.begin(), missing.end(), std::size_t{0});
-  if (const std::size_t count = made.colors.scale->missing; count > 0) {
+  ParticleColors::Scale& scale = *made.colors.scale;
+  scale.goes_below = scale.goes_above = !mapped.range && colored.style.chosen != nullptr;
+  for (const Outside& one : outside) {
+    scale.missing += one.missing;
+    scale.goes_below = scale.goes_below || one.below;
+    scale.goes_above = scale.goes_above || one.above;
+  }
+  if (const std::size_t count = scale.missing; count > 0) {
     made.notes.push_back(std::to_string(count) +
                          (count == 1 ? " particle has" : " particles have") + " no number in " +
                          quote(mapped.by) + ", the colour of that is " + hex_text(nan_color));

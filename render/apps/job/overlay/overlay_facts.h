@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/optics/camera_view.h"
+#include "core/scene/camera.h"
+#include "core/scene/names.h"
+#include "render/files/particles/colors/color_meaning.h"
+#include "render/files/scene_file/loaded/particle_facts.h"
+
+namespace boule {
+
+/// What can be drawn on a picture: what colours mean, a bar of a known length, the directions of x,
+/// y and z, the time or the frame of a series.
+enum class OverlayPart { legend, scale, axes, time };
+template <>
+inline constexpr std::array<std::string_view, 4> names<OverlayPart>{"legend", "scale", "axes",
+                                                                    "time"};
+
+/// Which of these, each once.
+using OverlayParts = std::vector<OverlayPart>;
+
+/// "legend,scale"; and what is probably meant by other text.
+std::optional<OverlayParts> parse_overlay(const std::string& text);
+std::string hint_overlay(const std::string& text);
+std::string list_overlay_parts();
+
+/// What an overlay tells of a picture.
+struct OverlayFacts {
+  OverlayParts parts{};
+  std::vector<ParticleColors> colors{};
+  std::array<Vec3d, 3> axes{};  ///< x, y, z as the camera sees them: right, up, towards the viewer
+  /// Pixels of a length of 1, at the depth of the point that the camera looks at; none: the camera
+  /// bends straight lines.
+  std::optional<double> pixels_per_length{};
+  std::string unit{};  ///< of lengths: "Å", "nm"; empty: unknown
+  std::string time{};  ///< "t = 12.5", "frame 3"; empty: there is neither
+  double pixels_per_point = 300.0 / 72;
+
+  [[nodiscard]] bool has(OverlayPart part) const;
+};
+
+/// Of these tables of particles in a picture `width` pixels wide. `frame`: that of a series.
+OverlayFacts overlay_facts(const OverlayParts& parts, const std::vector<ParticleFacts>& particles,
+                           const std::optional<int>& frame);
+
+/// Adds what the camera tells.
+void add_camera(const Camera& camera, const CameraView& view, int width, OverlayFacts& facts);
+
+/// Which of the parts have nothing to tell, a sentence each; and that a scale bar is right at one
+/// depth only.
+std::vector<std::string> overlay_notes(const OverlayFacts& facts, const CameraView& view);
+
+}  // namespace boule
