@@ -34,6 +34,8 @@ std::vector<overlay_module::Item> items_of(const Drawing& drawing) {
                      .stroke = one.stroke,
                      .width = one.width,
                      .size = one.size,
+                     .halo = one.halo,
+                     .halo_width = one.halo_width,
                      .text = one.text.c_str(),
                      .colors = one.colors.data(),
                      .color_count = one.colors.size()});

@@ -16,6 +16,8 @@ struct DrawnItem {
   overlay_module::Paint stroke{};
   double width = 0;
   double size = 0;
+  overlay_module::Paint halo{};
+  double halo_width = 0;
   std::string text{};
   std::vector<overlay_module::Paint> colors{};
 };

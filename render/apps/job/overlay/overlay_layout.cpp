@@ -73,25 +73,20 @@ PixelBox pixels_of(const PlacedBox& placed, double scale, double pixels,
           at((placed.y + placed.box.height * scale) * pixels + 1, ground.height)};
 }
 
-void add_plate(const PlacedBox& placed, double scale, bool is_light, Drawing& all) {
-  constexpr double beyond = 3;
-  const double x0 = placed.x - beyond, x1 = placed.x + placed.box.width * scale + beyond;
-  const double y0 = placed.y - beyond, y1 = placed.y + placed.box.height * scale + beyond;
-  const SrgbColor color = is_light ? SrgbColor{255, 255, 255} : SrgbColor{0, 0, 0};
-  all.push_back({.points = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, .fill = paint_of(color, 0.8)});
-}
-
 /// Puts a part into the drawing.
 void put(PlacedBox placed, double scale, double pixels, const OverlayGround& ground, Drawing& all) {
   if (placed.box.drawing.empty()) return;
   const Histogram under(ground, pixels_of(placed, scale, pixels, ground));
-  if (under.hides_text()) add_plate(placed, scale, under.is_light(), all);
   const Paint text = paint_of(under.is_light() ? dark_text : light_text);
   for (DrawnItem& one : placed.box.drawing) {
     for (Point& point : one.points)
       point = {placed.x + point.x * scale, placed.y + point.y * scale};
     one.width *= scale;
     one.size *= scale;
+    if (under.hides_text()) {
+      one.halo = paint_of(under.is_light() ? SrgbColor{255, 255, 255} : SrgbColor{}, 0.85);
+      one.halo_width = 1.2 * scale;
+    }
     if (one.fill.r == ink.r) one.fill = text;
     if (one.stroke.r == ink.r) one.stroke = text;
     all.push_back(std::move(one));
@@ -125,10 +120,11 @@ double fitting_scale(const Boxes& all, double width, double height) {
       std::max(sum(all.time.width, all.legend.width), sum(all.axes.width, all.bar.width));
   const double high =
       std::max(sum(all.time.height, all.axes.height), sum(all.legend.height, all.bar.height));
-  double scale = 1;
+  constexpr double full = 150;  // points: below, texts would cover too much of the picture
+  double scale = std::min(1.0, std::min(width, height) / full);
   if (wide > 0) scale = std::min(scale, (width - 2 * edge_room * scale) / wide);
   if (high > 0) scale = std::min(scale, (height - 2 * edge_room * scale) / high);
-  return std::max(scale, 0.2);
+  return std::max(scale, 0.1);
 }
 
 }  // namespace

@@ -54,12 +54,13 @@ Layout layout_of(cairo_t* to, const char* text, double size) {
 }
 
 /// The middle of a text's capital letters is at the item's point.
-void draw_text(cairo_t* to, const Item& item) {
+void draw_text(cairo_t* to, const Item& item, bool as_halo) {
   const Layout layout = layout_of(to, item.text, item.size);
   const double baseline = pango_layout_get_baseline(layout.get()) / double{PANGO_SCALE};
   constexpr double capital = 0.72;
-  set_color(to, item.fill);
   cairo_move_to(to, item.points[0].x, item.points[0].y + capital / 2 * item.size - baseline);
+  if (as_halo) return pango_cairo_layout_path(to, layout.get());
+  set_color(to, item.fill);
   pango_cairo_show_layout(to, layout.get());
 }
 
@@ -72,9 +73,30 @@ void stroke(cairo_t* to, const Item& item) {
   cairo_new_path(to);
 }
 
+/// The outline of what is no text.
+void add_outline(cairo_t* to, const Item& item) {
+  constexpr double turn = 6.283185307179586;
+  const Point* const points = item.points;
+  cairo_new_path(to);
+  if (item.shape == Shape::disc) return cairo_arc(to, points[0].x, points[0].y, item.size, 0, turn);
+  if (item.shape == Shape::ramp) {
+    return cairo_rectangle(to, points[0].x, points[0].y, points[1].x - points[0].x,
+                           points[1].y - points[0].y);
+  }
+  for (std::size_t i = 0; i < item.point_count; ++i) cairo_line_to(to, points[i].x, points[i].y);
+  if (item.fill.a > 0) cairo_close_path(to);
+}
+
+void draw_halo(cairo_t* to, const Item& item) {
+  if (!(item.halo.a > 0)) return;
+  item.shape == Shape::text ? draw_text(to, item, true) : add_outline(to, item);
+  set_color(to, item.halo);
+  cairo_set_line_width(to, item.width + 2 * item.halo_width);
+  cairo_stroke(to);
+}
+
 void draw_ramp(cairo_t* to, const Item& item) {
-  const auto [left, top] = item.points[0];
-  const auto [right, bottom] = item.points[1];
+  const double top = item.points[0].y, bottom = item.points[1].y;
   const Pattern ramp(cairo_pattern_create_linear(0, bottom, 0, top));
   for (std::size_t i = 0; i < item.color_count; ++i) {
     const Paint& color = item.colors[i];
@@ -83,25 +105,17 @@ void draw_ramp(cairo_t* to, const Item& item) {
                           : 0;
     cairo_pattern_add_color_stop_rgb(ramp.get(), at, color.r, color.g, color.b);
   }
-  cairo_rectangle(to, left, top, right - left, bottom - top);
+  add_outline(to, item);
   cairo_set_source(to, ramp.get());
   cairo_fill_preserve(to);
   stroke(to, item);
 }
 
 void draw_item(cairo_t* to, const Item& item) {
-  constexpr double turn = 6.283185307179586;
-  if (item.shape == Shape::text) return draw_text(to, item);
+  if (item.shape == Shape::text) return draw_text(to, item, false);
   if (item.shape == Shape::ramp) return draw_ramp(to, item);
-  cairo_new_path(to);
-  if (item.shape == Shape::disc) {
-    cairo_arc(to, item.points[0].x, item.points[0].y, item.size, 0, turn);
-  } else {
-    for (std::size_t i = 0; i < item.point_count; ++i)
-      cairo_line_to(to, item.points[i].x, item.points[i].y);
-  }
+  add_outline(to, item);
   if (item.fill.a > 0) {
-    if (item.point_count > 2) cairo_close_path(to);
     set_color(to, item.fill);
     cairo_fill_preserve(to);
   }
@@ -110,6 +124,7 @@ void draw_item(cairo_t* to, const Item& item) {
 
 void draw_items(cairo_t* to, const Item* items, std::size_t count) {
   cairo_set_line_join(to, CAIRO_LINE_JOIN_ROUND);
+  for (std::size_t i = 0; i < count; ++i) draw_halo(to, items[i]);
   for (std::size_t i = 0; i < count; ++i) draw_item(to, items[i]);
 }
 

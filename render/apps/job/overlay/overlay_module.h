@@ -33,10 +33,12 @@ struct Item {
   /// text: the left end of its middle line.
   const Point* points;
   std::size_t point_count;
-  Paint fill;           ///< a path is closed for it; its alpha may be 0
-  Paint stroke;         ///< path, disc, ramp: of the edge
-  double width;         ///< of the edge; 0: it has none
-  double size;          ///< disc: its radius; text: the height of the font
+  Paint fill;    ///< a path is closed for it; its alpha may be 0
+  Paint stroke;  ///< path, disc, ramp: of the edge
+  double width;  ///< of the edge; 0: it has none
+  double size;   ///< disc: its radius; text: the height of the font
+  Paint halo;    ///< around it, below all items; its alpha may be 0
+  double halo_width;
   const char* text;     ///< UTF-8
   const Paint* colors;  ///< ramp: from the lower end to the upper one
   std::size_t color_count;

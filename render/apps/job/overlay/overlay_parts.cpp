@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "render/apps/job/legend.h"
 
@@ -99,6 +100,28 @@ void add_rows(OverlayBox& box, const std::vector<ParticleColors::Species>& all, 
   box.height += row_step;
 }
 
+/// The box with its drawing at the corner, as large as that.
+OverlayBox moved_to_corner(OverlayBox box, const TextWidth& width_of) {
+  Point low{HUGE_VAL, HUGE_VAL}, high{-HUGE_VAL, -HUGE_VAL};
+  for (const DrawnItem& item : box.drawing) {
+    const bool is_text = item.shape == Shape::text;
+    const double around = is_text ? 0 : item.size + item.width / 2;
+    const double right = is_text ? width_of(item.text, item.size) : around;
+    const double up = is_text ? 0.4 * item.size : around,
+                 down = is_text ? 0.55 * item.size : around;
+    for (const auto& [x, y] : item.points) {
+      low = {std::min(low.x, x - around), std::min(low.y, y - up)};
+      high = {std::max(high.x, x + right), std::max(high.y, y + down)};
+    }
+  }
+  for (DrawnItem& item : box.drawing) {
+    for (Point& point : item.points) point = {point.x - low.x, point.y - low.y};
+  }
+  box.width = high.x - low.x;
+  box.height = high.y - low.y;
+  return box;
+}
+
 }  // namespace
 
 double round_length(double length) {
@@ -167,8 +190,7 @@ OverlayBox draw_axes(const OverlayFacts& facts, const TextWidth& width_of) {
     const Point from = size < shortest ? Point{middle, middle} : tip;
     add_text(box, from.x + away * right - width / 2, from.y + away * down, texts[i], width_of);
   }
-  box.width = box.height = 2 * middle;
-  return box;
+  return moved_to_corner(std::move(box), width_of);
 }
 
 OverlayBox draw_time(const OverlayFacts& facts, const TextWidth& width_of) {

@@ -90,6 +90,22 @@ std::string item_text(const DrawnItem& item, std::size_t number) {
                      rgb(item.fill), xml_text(item.text));
 }
 
+/// What is drawn below an item: the item itself, as a wide line.
+std::string halo_of(const DrawnItem& item) {
+  if (!(item.halo.a > 0)) return {};
+  DrawnItem halo = item;
+  halo.fill = halo.stroke = item.halo;
+  halo.width = item.width + 2 * item.halo_width;
+  if (item.shape == Shape::ramp) {
+    const auto& [a, b] = std::pair(item.points[0], item.points[1]);
+    halo.shape = Shape::path;
+    halo.points = {a, {b.x, a.y}, b, {a.x, b.y}};
+  }
+  const std::string edge =
+      fmt::format("<g stroke=\"{}\" stroke-width=\"{:.3g}\">\n", rgb(halo.stroke), halo.width);
+  return (item.shape == Shape::text ? edge : "<g>\n") + item_text(halo, 0) + "</g>\n";
+}
+
 }  // namespace
 
 std::string xml_text(const std::string& text) {
@@ -121,6 +137,7 @@ Result<std::string> svg_page(const Drawing& drawing, const Image& image, double 
       "xlink:href=\"data:image/png;base64,",
       image.width / pixels_per_point, image.height / pixels_per_point);
   text += base64(png.value()) + "\"/>\n";
+  for (const DrawnItem& one : drawing) text += halo_of(one);
   for (std::size_t i = 0; i < drawing.size(); ++i) text += item_text(drawing[i], i);
   return text + "</svg>\n";
 }
