@@ -38,6 +38,8 @@ class CMakeBuild(build_ext):
         shutil.copytree(build / "boule", target, dirs_exist_ok=True)
         # Pictures are read and written by this module, which is looked for beside the package's own.
         shutil.copy2(build / "bin" / "boule_image_io.so", target)
+        for overlay in (build / "bin").glob("boule_overlay.so"):  # where pango was there
+            shutil.copy2(overlay, target)
 
 
 setup(

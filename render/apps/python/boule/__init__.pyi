@@ -19,6 +19,7 @@ _Filter = Literal["box", "tent"]
 _Solver = Literal["fast", "robust", "reference"]
 _Frame = Literal["scene", "camera"]
 _Order = Literal["rows", "tiles", "progressive", "frameless"]
+_OverlayPart = Literal["legend", "scale", "axes", "time"]
 _Polygons = Literal["plane", "skip", "error"]
 _Look = Literal["paper", "plain", "dark"]
 _Style = Literal["space-filling", "balls-and-sticks", "sticks"]
@@ -1017,6 +1018,7 @@ def render(
     filter: _Filter | None = ...,
     background: str | None = ...,
     outline: float | str | None = ...,
+    overlay: str | Sequence[_OverlayPart] | None = ...,
     seed: int | None = ...,
     crop: str | Sequence[int] | None = ...,
     aov: str | Sequence[str] | None = ...,

@@ -78,12 +78,24 @@ void check_exposure(float exposure) {
   if (!(exposure >= -100 && exposure <= 100)) throw_error("exposure", "must be from -100 to 100");
 }
 
+/// What is drawn on the picture as it is shown; null: nothing.
+Result<std::shared_ptr<const PixelLayer>> layer_of(const PictureParts& parts, float exposure) {
+  if (parts.overlay.parts.empty()) return std::shared_ptr<const PixelLayer>();
+  return overlay_layer(parts.overlay, parts.image, exposure);
+}
+
 /// 8 bits a component: H x W x 3, or x 4 with alpha.
 py::array srgb_of(const Picture& picture, float exposure) {
   check_exposure(exposure);
   const auto parts = picture.parts;
-  const auto bytes =
-      interruptible([parts, exposure](Call&) { return tone_map(parts->image, exposure); });
+  using Codes = Result<std::vector<std::uint8_t>>;
+  const auto bytes = take(interruptible([parts, exposure](Call&) -> Codes {
+    auto codes = tone_map(parts->image, exposure);
+    const auto layer = layer_of(*parts, exposure);
+    if (!layer) return layer.error();
+    if (layer.value()) draw_over(*layer.value(), 0, parts->image.alpha.empty() ? 3 : 4, codes);
+    return codes;
+  }));
   auto array = empty_array<std::uint8_t>(
       {parts->image.height, parts->image.width, parts->image.alpha.empty() ? 3 : 4});
   std::copy(bytes.begin(), bytes.end(), array.mutable_data());
@@ -109,22 +121,34 @@ void save(const Picture& picture, const py::object& name, float exposure,
   options.date_time = take(source_date());
   const ImageFormat* const format = find_image_format(path);
   const bool has_channels = format != nullptr && format->channels;
-  check(interruptible([parts = picture.parts, path, options, has_channels](Call& call) {
-    ImageFileOptions mine = options;
-    // Here, not before: the thread that waits for signals copies nothing large.
-    if (has_channels) mine.channels = parts->channels;
-    mine.stop = [&call] { return call.cancel.load(); };
-    return write_image(parts->image, path, mine);
-  }));
+  const bool is_drawn_on = format != nullptr && !format->hdr;
+  check(interruptible(
+      [parts = picture.parts, path, options, has_channels, is_drawn_on](Call& call) -> Status {
+        ImageFileOptions mine = options;
+        // Here, not before: the thread that waits for signals copies nothing large.
+        if (has_channels) mine.channels = parts->channels;
+        mine.stop = [&call] { return call.cancel.load(); };
+        if (is_page_name(path)) return write_page(parts->image, parts->overlay, path, mine);
+        if (is_drawn_on) {
+          auto layer = layer_of(*parts, options.exposure_stops);
+          if (!layer) return layer.error();
+          mine.layer = std::move(layer).value();
+        }
+        return write_image(parts->image, path, mine);
+      }));
 }
 
 py::bytes png_of(const Picture& picture, float exposure) {
   const ImageFileOptions options = file_options(*picture.parts, exposure);
-  const std::string bytes = take(interruptible([parts = picture.parts, options](Call& call) {
-    ImageFileOptions mine = options;
-    mine.stop = [&call] { return call.cancel.load(); };
-    return encode_image(parts->image, StreamFormat::png, "picture.png", mine);
-  }));
+  const std::string bytes =
+      take(interruptible([parts = picture.parts, options](Call& call) -> Result<std::string> {
+        ImageFileOptions mine = options;
+        auto layer = layer_of(*parts, options.exposure_stops);
+        if (!layer) return layer.error();
+        mine.layer = std::move(layer).value();
+        mine.stop = [&call] { return call.cancel.load(); };
+        return encode_image(parts->image, StreamFormat::png, "picture.png", mine);
+      }));
   return py::bytes(bytes);
 }
 
@@ -240,8 +264,10 @@ void bind_picture(py::module_& module) {
           "save", &save, inside(), py::arg("path"), py::kw_only(), py::arg("exposure") = 0.0F,
           py::arg("compression") = "zip",
           "Write a file in the format of its extension, as `boule render` does: .exr (linear, with "
-          "all channels), .png, .jpg and others (8 bits; colours are multiplied by 2^exposure, of "
-          "-100 to 100). It appears under its name when it is complete. compression, of .exr: "
+          "all channels, without an overlay), .png, .jpg and others (8 bits; colours are "
+          "multiplied by 2^exposure, of "
+          "-100 to 100), .pdf and .svg (what is drawn on it as vectors). It appears under its name "
+          "when it is complete. compression, of .exr: "
           "none, rle or zip. Raises Error.")
       .def("__array__", &as_array, inside(), py::arg("dtype") = py::none())
       .def(

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/apps/job/overlay/overlay.h"
 #include "render/apps/job/picture_header.h"
 #include "render/image/write_image.h"
 #include "render/renderer/renderer.h"
@@ -24,6 +25,7 @@ struct PictureParts {
   int spp = 1;
   std::uint64_t scene_hash = 0;
   Vec3d origin{};                         ///< from which the scene counts its points
+  OverlayFacts overlay;                   ///< its parts may be empty
   std::optional<NoiseReached> noise;      ///< none: it was not measured
   std::optional<PartialSamples> partial;  ///< none: it is finished
 };

@@ -41,10 +41,18 @@ RenderJob job_of(const py::dict& dictionary) {
   return job;
 }
 
+/// The frame that is asked for, if it is counted from the first.
+std::optional<int> frame_of(const py::dict& keys) {
+  if (!keys.contains("frame") || !py::isinstance<py::int_>(keys["frame"])) return std::nullopt;
+  const auto frame = py::cast<long long>(keys["frame"]);
+  return frame >= 0 ? std::optional(static_cast<int>(frame)) : std::nullopt;
+}
+
 /// One render, which its thread and the waiting one share.
 class Run {
  public:
-  Run(SceneRequest request, RenderJob job) : request_(std::move(request)), job_(std::move(job)) {}
+  Run(SceneRequest request, RenderJob job, std::optional<int> frame)
+      : request_(std::move(request)), job_(std::move(job)), frame_(frame) {}
 
   /// The picture; unfinished, or none, if it was stopped.
   Status work(Call& call);
@@ -70,6 +78,7 @@ class Run {
 
   SceneRequest request_;
   RenderJob job_;
+  std::optional<int> frame_;  ///< that is asked for
   LiveProgress live_;
   std::atomic<Clock::time_point> begin_{};
   std::atomic<bool> is_rendering_{false};
@@ -77,6 +86,7 @@ class Run {
 };
 
 Status Run::work(Call& call) {
+  if (auto done = job_.overlay.empty() ? Status() : check_overlay_module(); !done) return done;
   auto loaded = request_.load(call);
   if (!loaded) return loaded.error();
   Scene& scene = loaded.value().scene;
@@ -85,6 +95,7 @@ Status Run::work(Call& call) {
   options.cancel = &call.cancel;
   options.live = &live_;
   auto parts = std::make_shared<PictureParts>();
+  parts->overlay = overlay_facts(job_.overlay, loaded.value().particles, frame_);
   parts->notes = std::move(loaded.value().notes);
   parts->origin = loaded.value().origin;
   if (auto done = validate(scene); !done) return done;
@@ -153,9 +164,14 @@ void Run::describe(const Renderer& renderer, PictureParts& parts) const {
   if (options.crop) {
     parts.crop = {options.width, options.height, options.crop->x0, options.crop->y0};
   }
+  const CameraView& view = renderer.scene().camera_view;
+  add_camera(renderer.scene().camera, view, options.width, parts.overlay);
+  parts.overlay.pixels_per_point = size_choice(job_).pixels_per_inch() / 72;
   parts.statistics = renderer.statistics();
   parts.spp = options.spp;
   parts.notes.insert(parts.notes.end(), renderer.notes().begin(), renderer.notes().end());
+  for (std::string& text : overlay_notes(parts.overlay, view))
+    parts.notes.push_back(std::move(text));
 }
 
 /// A render that Python waits for. What its progress tells is called by Python, between two waits:
@@ -163,7 +179,7 @@ void Run::describe(const Renderer& renderer, PictureParts& parts) const {
 class Rendering {
  public:
   Rendering(const py::object& source, const py::dict& keys, const py::dict& given)
-      : run_(std::make_shared<Run>(SceneRequest(source, keys), job_of(given))),
+      : run_(std::make_shared<Run>(SceneRequest(source, keys), job_of(given), frame_of(keys))),
         waiting_(call_, work(), options(given)) {}
 
   /// Waits until it has ended; true if it has. With `ticks` it waits a tenth of a second at most.
