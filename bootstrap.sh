@@ -7,7 +7,7 @@ set -euo pipefail
 # clang: the compiler that is taken where it is there; g++ brings its standard library.
 readonly build_packages=(cmake clang g++ ninja-build libxsimd-dev libopenimageio-dev openimageio-tools
   libcli11-dev libfast-float-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libzip-dev libzstd-dev zlib1g-dev libbz2-dev liblzma-dev
-  gemmi-dev tao-pegtl-dev libboost-dev libpng-dev libturbojpeg0-dev libxxhash-dev lowdown)
+  gemmi-dev tao-pegtl-dev libboost-dev libpango1.0-dev libpng-dev libturbojpeg0-dev libxxhash-dev lowdown)
 # libclang-rt-14-dev: libFuzzer and the sanitizers. lammps-examples: particle files by others.
 # chromium-driver, python3-selenium: the pages, driven in a browser.
 # libopenmpi-dev, libmpich-dev: ranks that work together; the program needs neither.
