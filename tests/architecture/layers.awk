@@ -73,6 +73,7 @@ BEGIN {
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
   owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|module_writer\\.(h|cpp)|descriptor_proxy\\.h)$", "OpenImageIO")
   owner("#include <png\\.h>", "^render/image/png_table\\.cpp$", "libpng")
+  owner("#include <(pango|cairo)", "^render/apps/job/overlay/overlay_module\\.cpp$", "cairo and pango")
   owner("#include <boost/", "^render/apps/view/server/web_server\\.cpp$", "Boost")
   owner("#include <turbojpeg", "^render/apps/view/panes/jpeg\\.cpp$", "libjpeg-turbo")
   owner("#include <pybind11/|#include <Python\\.h>", "^render/apps/python/", "Python")

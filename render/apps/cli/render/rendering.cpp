@@ -123,6 +123,13 @@ Result<LoadedScene> Rendering::load() {
   return loader_.load(command_.frame);
 }
 
+void Rendering::keep_overlay_facts(const LoadedScene& loaded) {
+  overlay_ = overlay_facts(command_.overlay, loaded.particles,
+                           command_.turn ? std::nullopt : command_.frame);
+  overlay_.colors = loader_.colors();
+  overlay_.pixels_per_point = size_choice(command_).pixels_per_inch() / 72;
+}
+
 ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   auto loaded = load();
   if (!loaded) return refuse(loaded.error(), command_, code_of_loading(loaded.error()));
@@ -130,10 +137,7 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
     return refuse(done.error(), command_, wrong_usage);
   Scene& scene = loaded.value().scene;
   origin_ = loaded.value().origin;
-  overlay_ = overlay_facts(command_.overlay, loaded.value().particles,
-                           command_.turn ? std::nullopt : command_.frame);
-  overlay_.colors = loader_.colors();
-  overlay_.pixels_per_point = size_choice(command_).pixels_per_inch() / 72;
+  keep_overlay_facts(loaded.value());
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
   live_.start_stage("preparing " + printable(command_.scene));

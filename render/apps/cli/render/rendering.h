@@ -50,6 +50,7 @@ class Rendering {
   /// Returns done without a renderer if the picture is there already.
   ExitCode prepare(std::optional<Renderer>& renderer);
   Result<LoadedScene> load();
+  void keep_overlay_facts(const LoadedScene& loaded);
   ExitCode render(Renderer& renderer);
   Result<Image> make_image(Renderer& renderer);
   /// The same where its noise is asked for; also which AOVs tell of it, into `channels`.
@@ -94,7 +95,7 @@ class Rendering {
   Vec3d origin_;                           ///< that the scene's points are counted from
   std::optional<PartialSamples> partial_;  ///< none: the picture is finished
   OverlayFacts overlay_;
-  std::optional<NoiseReached> noise_;      ///< none: it was not measured
+  std::optional<NoiseReached> noise_;  ///< none: it was not measured
   std::optional<Checkpoint> checkpoint_;
   std::optional<RenderStatistics> of_team_;  ///< what all ranks traced
   std::optional<ImageStart> image_start_;    ///< loads the image module while the scene is prepared

@@ -16,8 +16,8 @@ std::string shown_output(const RenderCommand& command);
 /// and no channels, and nothing else may be written there. Or the format is given for a file.
 Status check_picture_stream(const RenderCommand& command);
 
-/// What the picture's format, or that of the picture in a page, can hold; null if the file's extension is unknown. Precondition:
-/// check_picture_stream() passes the command.
+/// What the picture's format, or that of the picture in a page, can hold; null if the file's
+/// extension is unknown. Precondition: check_picture_stream() passes the command.
 const ImageFormat* picture_format(const RenderCommand& command);
 
 /// The name of the picture for ImageStart; none if OpenImageIO is not needed.

@@ -66,7 +66,7 @@ TEST(Overlay, LengthsAreRound) {
     EXPECT_DOUBLE_EQ(round_length(length), round);
 }
 
-TEST(Overlay, HasPointsOfOneSizeAtAnyResolution) {
+TEST(Overlay, HasOneSizeAtAnyResolution) {
   const Drawing coarse = drawn(facts_of(all_parts, 1), 288, 216, 255);
   const Drawing fine = drawn(facts_of(all_parts, 4), 4 * 288, 4 * 216, 255);
   ASSERT_EQ(coarse.size(), fine.size());
@@ -95,7 +95,7 @@ TEST(Overlay, PartsAreInTheirCorners) {
   EXPECT_GT(at("5 \u00c5").y, 190);
 }
 
-TEST(Overlay, BarHasItsLengthOnSmallPicturesToo) {
+TEST(Overlay, BarIsRightOnSmallPictures) {
   for (const auto& [side, text] : {std::pair{288, "5 \u00c5"}, {80, "2 \u00c5"}}) {
     const Drawing drawing = drawn(facts_of({OverlayPart::scale}, 1), side, side, 255);
     text_item(drawing, text);

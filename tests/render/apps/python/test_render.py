@@ -303,3 +303,21 @@ def test_a_picture_that_cannot_be_written(ball, tmp_path):
         picture.save(tmp_path / "a.exr", compression="rar")
     assert caught.value.key == "compression"
     assert os.listdir(tmp_path) == []
+
+
+def test_overlays_are_drawn_where_pictures_are_shown(tmp_path):
+    file = tmp_path / "salt.xyz"
+    file.write_text("2\nProperties=species:S:1:pos:R:3\nNa 0 0 0\nCl 2.8 0 0\n")
+    options = {"size": (320, 240), "quick": True}
+    plain = boule.render(file, **options)
+    drawn = boule.render(file, overlay=["legend", "scale"], **options)
+    assert np.array_equal(np.asarray(plain), np.asarray(drawn))
+    ys, xs = np.nonzero((plain.to_srgb() != drawn.to_srgb()).any(axis=2))
+    assert len(xs) > 100 and xs.min() > 160
+    for name in ("a.png", "a.pdf", "a.svg"):
+        drawn.save(tmp_path / name)
+    assert ">Na</text>" in (tmp_path / "a.svg").read_text()
+    assert (tmp_path / "a.pdf").read_bytes().startswith(b"%PDF-")
+    drawn.save(tmp_path / "a.exr")
+    with pytest.raises(boule.Error, match="did you mean 'legend'"):
+        boule.render(file, overlay="lgend", **options)
