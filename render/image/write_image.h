@@ -54,7 +54,7 @@ struct ImageFileOptions {
   CropWindow crop{};         ///< formats without channels store the pixels only, not the window
   std::vector<ImageChannel> channels{};           ///< formats without channels refuse them
   std::string date_time = "1970:01:01 00:00:00";  ///< the header's DateTime, in EXIF notation
-  Metadata metadata{};           ///< an entry replaces the standard one of its name
+  Metadata metadata{};  ///< an entry replaces the standard one of its name
   /// LDR formats: drawn over the picture, whose size it has; null: none. HDR formats refuse it.
   std::shared_ptr<const PixelLayer> layer{};
   int threads = 1;               ///< for compression, 1 .. 256; others are clamped to this range
