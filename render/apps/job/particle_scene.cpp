@@ -1,12 +1,16 @@
 #include "render/apps/job/particle_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <string>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "core/base/text.h"
 #include "core/math/geometry.h"
+#include "render/apps/job/look_choices.h"
 #include "render/files/file/mapped_text.h"
 #include "render/files/file/npy_header.h"
 #include "render/files/packed/packed_file.h"
@@ -33,51 +37,35 @@ bool has_named_fields(const std::string& npy) {
   return header && !header.value().fields.empty();
 }
 
-/// The option of the command line that a key of the scene comes from, if it was given.
-const char* option_of(std::string_view key, const LookOptions& look) {
-  struct Origin {
-    std::string_view key;
-    const char* option;
-    bool given;
-  };
-  const Origin origins[] = {{".format", "--input-format", !look.format.empty()},
-                            {".columns", "--columns", !look.columns.empty()},
-                            {".topology", "--topology", !look.topology.empty()},
-                            {".frame", "--frame", look.frame.has_value()},
-                            {".radius", "--radius", !look.radius.empty()},
-                            {".radii", "--radii", !look.radii.empty()},
-                            {".scale", "--scale", look.scale.has_value()},
-                            {".style", "--style", look.style.has_value()},
-                            {".bonds", "--bonds", !look.bonds.empty()},
-                            {".bond_radius", "--bond-radius", look.bond_radius.has_value()},
-                            {".bond_color", "--bond-color", !look.bond_color.empty()},
-                            {".cell_edges", "--cell-edges", look.cell_edges},
-                            {".axes", "--axes", look.axes},
-                            {".arrows", "--arrows", !look.arrows.empty()},
-                            {".arrow_scale", "--arrow-scale", look.arrow_scale.has_value()},
-                            {".wrap", "--wrap", look.wrap},
-                            {".replicate", "--replicate", look.replicate.has_value()},
-                            {".colors", "--colors", !look.colors.empty()},
-                            {".select", "--select", !look.select.empty()},
-                            {".color.map", "--map", !look.map.empty()},
-                            {".color.range", "--range", look.range.has_value()},
-                            {".color.by", "--color", !look.color.empty()},
-                            {".color", "--color", !look.color.empty()},
-                            {"camera.direction", "--view", look.view.has_value()},
-                            {"camera.pose", "--view", look.view.has_value()},
-                            {"camera.up", "--up", look.up.has_value()},
-                            {"camera.fov", "--fov", look.fov.has_value()}};
-  for (const Origin& origin : origins) {
-    if (origin.given && key.ends_with(origin.key)) return origin.option;
+/// The name of the option that says this key of the scene: the key's last word, but for these.
+std::string_view option_name(std::string_view key) {
+  constexpr std::array<std::array<std::string_view, 2>, 4> others{
+      {{"format", "input_format"}, {"by", "color"}, {"direction", "view"}, {"pose", "view"}}};
+  const std::string_view word = key.substr(key.rfind('.') + 1);
+  for (const auto& [last, name] : others) {
+    if (word == last) return name;
   }
-  return nullptr;
+  return word;
+}
+
+/// The option of the command line that a key of the scene comes from, if it was given; else empty.
+std::string option_of(std::string_view key, const LookOptions& look) {
+  const std::string_view name = option_name(key);
+  const LookOptions usual;
+  std::string option;
+  const auto compare = [&](const auto& row) {
+    const bool is_given = !(look.*row.member == usual.*row.member);
+    if (row.name == name && is_given) option = row.option();
+  };
+  std::apply([&](const auto&... row) { (compare(row), ...); }, look_choices());
+  return option;
 }
 
 /// An error in the scene's text, which nobody has seen, as one about the options or the file.
 Diagnostic explain(Diagnostic error, const std::string& shown_path, const std::string& path,
                    const LookOptions& look) {
   if (error.file != shown_path) return error;
-  if (const char* const option = option_of(error.key, look)) {
+  if (const std::string option = option_of(error.key, look); !option.empty()) {
     return Diagnostic::about(option, std::move(error.message));
   }
   if (error.message.starts_with("not valid TOML")) {
