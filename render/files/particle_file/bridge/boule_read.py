@@ -1,8 +1,8 @@
-"""boule-read FILE COUNT: reads a file of a simulation by the Python library that knows it.
+"""boule-read FILE COUNT [only NAME...]: reads a file of a simulation by the Python library that knows it.
 
 Boule has this text in its program and runs it for files that it does not read itself. The library
 is that of FORMATS by the file's name, else ASE. COUNT: how many particles there are, for files that
-do not tell; 0 if nobody knows.
+do not tell; 0 if nobody knows. NAME: the columns of numbers that are asked for; without "only", all.
 
 The stream
 ----------
@@ -21,6 +21,7 @@ That to a request:
                             and one of N indices into them, 4 bytes each, from 0
     text K BYTES NAME       a column of texts, likewise
     number NAME             a column of numbers, a block of N doubles
+    unread NAME             one that was not asked for
     bonds B                 all that there are: a block of 2 B indices of particles, 4 bytes each
     cell A B C O            twelve numbers, three edges and the corner; digits suffice for the double
     periodic A B C          0 or 1 along each edge
@@ -90,6 +91,7 @@ PACKAGES = {
 COUNTLESS = ("TRJ", "TRZ")  # do not tell how many particles they have
 STRUCTURES = ("CRD", "MOL2", "TXYZ", "DMS", "PDBQT")  # positions with names
 TOPOLOGIES = ("PSF", "PRMTOP", "TPR")  # names without positions
+WANTED = None  # the columns of numbers that are asked for; None: all
 UNSAFE = ("py", "bundletrajectory", "db", "json", "mysql", "postgresql")  # of ASE: run or unpickle
 
 
@@ -115,6 +117,7 @@ class Frame:
         self.count = 0 if positions is None else len(positions)
         self.species = None  # a column of kinds, as those of columns
         self.columns = []  # (name, N numbers or N texts or what coded() returns)
+        self.unread = []  # names
         self.bonds = None  # B x 2
         self.cell = None  # 3 x 3
         self.origin = (0, 0, 0)
@@ -123,31 +126,42 @@ class Frame:
         self.time = None
         self.notes = []
 
+    def is_asked(self, name, shape):
+        """Whether numbers of this shape are asked for; else their names are all that is told."""
+        names = names_of(name, shape)
+        if WANTED is None or not WANTED.isdisjoint(names):
+            return True
+        self.unread += names
+        return False
+
     def add(self, name, values):
         """Adds a column, or one for each of its parts; skips what is not one value a particle."""
         if isinstance(values, tuple):
             self.columns.append((name, values))
             return
         values = numpy.asarray(values)
-        if values.ndim == 2 and values.shape[1] == 1:
-            values = values[:, 0]
         if len(values.shape) not in (1, 2) or len(values) != self.count or values.dtype.kind == "c":
             return
-        if values.ndim == 1:
-            self.columns.append((name, values))
-            return
-        ends = [f"_{i + 1}" for i in range(values.shape[1])]
-        if values.shape[1] == 3:
-            ends = ["_x", "_y", "_z"]
-        is_velocity = name.lower() in ("v", "vel", "velo", "velocity", "velocities")
-        for i, end in enumerate(ends):
-            named = "v" + end[1:] if is_velocity and len(ends) == 3 else name + end
-            self.columns.append((named, values[:, i]))
+        columns = values.T if values.ndim == 2 else [values]
+        for named, column in zip(names_of(name, values.shape), columns):
+            if values.dtype.kind not in "biuf" or self.is_asked(named, column.shape):
+                self.columns.append((named, column))
 
     def set_cell(self, edges, periodic=(True, True, True)):
         edges = numpy.asarray(edges, dtype=float).reshape(3, 3)
         if numpy.linalg.det(edges) != 0:
             self.cell, self.periodic = edges, periodic
+
+
+def names_of(name, shape):
+    """The names of the columns that an array of one value or one row a particle has."""
+    width = shape[1] if len(shape) == 2 else len(shape) == 1
+    if width == 1:
+        return [name]
+    if width != 3:
+        return [f"{name}_{i + 1}" for i in range(width)]
+    is_velocity = name.lower() in ("v", "vel", "velo", "velocity", "velocities")
+    return [("v" if is_velocity else name + "_") + axis for axis in "xyz"]
 
 
 def coded(values):
@@ -299,7 +313,10 @@ class BySnapshot:
 
     def read(self, _number):
         counts = [len(group["Coordinates"]) for _, group in self.groups]
-        frame = Frame(numpy.concatenate([group["Coordinates"][()] for _, group in self.groups]))
+        places = numpy.empty((sum(counts), 3))
+        for (_, group), end in zip(self.groups, numpy.cumsum(counts)):
+            group["Coordinates"].read_direct(places[end - len(group["Coordinates"]) : end])
+        frame = Frame(places)
         index = numpy.repeat(numpy.arange(len(counts)), counts)
         frame.species = ("type", ([self.NAMES[i] for i, _ in self.groups], index))
         header = self.file["Header"].attrs if "Header" in self.file else {}
@@ -320,11 +337,14 @@ class BySnapshot:
         first = next((one for one in fields if hasattr(one, "dtype")), None)
         if name == "Coordinates" or first is None or first.dtype.kind not in "biuf":
             return
+        named = {"ParticleIDs": "id", "Masses": "mass"}.get(name, name)
+        if not frame.is_asked(named, first.shape):
+            return
         shape, values = first.shape[1:], []
         for field, count in zip(fields, counts):
             is_there = hasattr(field, "dtype") and field.shape == (count, *shape)
             values.append(field[()] if is_there else numpy.full((count, *shape), numpy.nan))
-        frame.add({"ParticleIDs": "id", "Masses": "mass"}.get(name, name), numpy.concatenate(values))
+        frame.add(named, numpy.concatenate(values))
 
 
 class ByOpenPMD:
@@ -378,8 +398,11 @@ class ByOpenPMD:
         parts = [one for one in records if one is not None]
         axes = [axis for axis in "xyz" if any(axis in one for one in parts if hasattr(one, "keys"))]
         for axis in axes or [""]:
+            named = f"{name}_{axis}" if axis else name
+            if not frame.is_asked(named, (frame.count,)):
+                continue
             ones = [one[axis] if axis and one is not None and axis in one else one for one in records]
-            frame.add(f"{name}_{axis}" if axis else name, numpy.concatenate([
+            frame.add(named, numpy.concatenate([
                 numpy.full(count, numpy.nan) if one is None else self.values(one, count)
                 for one, count in zip(ones, counts)]))  # fmt: skip
 
@@ -427,8 +450,11 @@ class ByH5MD:
         data = element.get("value") if hasattr(element, "keys") else element
         if not isinstance(data, self.h5py.Dataset):
             return
-        values = self.value(element, number)
         names = {code: text for text, code in (self.h5py.check_enum_dtype(data.dtype) or {}).items()}
+        are_numbers = data.dtype.kind in "biuf" and not names and name != "species"
+        if are_numbers and not frame.is_asked(name, data.shape[hasattr(element, "keys") :]):
+            return
+        values = self.value(element, number)
         if names and values.ndim == 1:
             values = numpy.array([names.get(code, str(code)) for code in values.tolist()])
         if name == "species" and values.shape == (frame.count,):
@@ -541,7 +567,7 @@ def answer_of(frame):
     if frame.time is not None:
         lines.append("time " + words([frame.time]))
     lines.append("angstrom " + words([frame.angstrom]))
-    lines += ["note " + note for note in frame.notes]
+    lines += ["unread " + name for name in frame.unread] + ["note " + note for note in frame.notes]
     species = [] if frame.species is None else [frame.species]
     for i, (name, values) in enumerate(species + frame.columns):
         if not isinstance(values, tuple) and values.dtype.kind in "biuf":
@@ -574,8 +600,9 @@ def main():
 
     library = ""
     try:
-        global numpy
+        global numpy, WANTED
         path, count = sys.argv[1], int(sys.argv[2])
+        WANTED = set(sys.argv[4:]) if sys.argv[3:4] == ["only"] else None
         kind, libraries, form = choose(path)
         try:
             numpy = importlib.import_module("numpy")

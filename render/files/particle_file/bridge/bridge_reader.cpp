@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "core/base/text.h"
 #include "render/files/particle_file/bridge/boule_read.h"
@@ -102,8 +103,13 @@ class BridgeReader final : public ParticleReader {
 Result<std::unique_ptr<ParticleReader>> open_bridge(const std::string& path,
                                                     const ParticleFileOptions& options,
                                                     std::size_t particles) {
-  auto process = ChildProcess::start(
-      {python(), "-c", std::string(boule_read_script), path, std::to_string(particles)});
+  std::vector<std::string> words{python(), "-c", std::string(boule_read_script), path,
+                                 std::to_string(particles)};
+  if (options.wanted) {
+    words.emplace_back("only");
+    words.insert(words.end(), options.wanted->begin(), options.wanted->end());
+  }
+  auto process = ChildProcess::start(words);
   if (!process) {
     return Diagnostic::of("it needs Python, and " + quote(python(), 300) + " does not start: " +
                           process.error().message + "; BOULE_PYTHON names another");

@@ -107,8 +107,8 @@ bool read_fact(std::string_view line, FrameLines& lines, ParticleFrame& frame) {
   if (word == "positions") return lines.has_positions = true;
   if (word == "cell") return read_cell(line, frame);
   if (word == "periodic") return read_periodic(line, frame);
-  if (word == "note") {
-    frame.notes.emplace_back(line);
+  if (word == "note" || word == "unread") {
+    (word == "note" ? frame.notes : frame.unread).emplace_back(line);
     return true;
   }
   if (word == "particles") {
