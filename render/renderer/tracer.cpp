@@ -78,19 +78,27 @@ Status Tracer::closest(std::span<const Ray> rays, std::span<TracedHit> hits) {
   return run(rays, hits.size(), std::cref(body));
 }
 
-Result<TracedHit> Tracer::closest(const Ray& ray) {
+/// answer(worker), on the caller's thread.
+template <class Answer>
+auto Tracer::answer_one(const Answer& answer)
+    -> Result<decltype(answer(std::declval<TraceWorker&>()))> {
   if (workers_.empty()) return moved_away();
   const BriefFloatEnvironment environment;
   try {
-    TraceWorker& mine = worker(0);
-    mine.load(1, [&](std::size_t) { return ray; });
-    TracedHit found;
-    mine.find_closest(target(), [&](std::size_t, const TracedHit& hit) { found = hit; });
+    const auto found = answer(worker(0));
     ++rays_;
     return found;
   } catch (const std::bad_alloc&) {
     return Diagnostic::out_of_memory("out of memory for a ray");
   }
+}
+
+Result<TracedHit> Tracer::closest(const Ray& ray) {
+  return answer_one([&](TraceWorker& mine) { return mine.find_closest(target(), ray); });
+}
+
+Result<bool> Tracer::any(const Ray& ray) {
+  return answer_one([&](TraceWorker& mine) { return mine.find_any(target(), ray); });
 }
 
 Status Tracer::any(std::span<const Ray> rays, std::span<std::uint8_t> met) {

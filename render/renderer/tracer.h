@@ -74,6 +74,8 @@ class Tracer {
   /// Sets met[k] to 1 if rays[k] hits a primitive with tmin < t <= tmax, otherwise to 0. It agrees
   /// with closest() and takes less time. Errors are as for closest().
   Status any(std::span<const Ray> rays, std::span<std::uint8_t> met);
+  /// The same for one ray, as closest() for one.
+  Result<bool> any(const Ray& ray);
 
   /// The same for rays and hits in columns, which are read and written in place. The numbers of
   /// rays must stay unchanged in the meantime. An error, with the key "source" and the row, if a
@@ -161,6 +163,8 @@ class Tracer {
   /// An error unless there is a result for each of the things that are `asked`. `what`: their name.
   static Status check_room(const char* what, std::size_t asked, std::size_t results);
   [[nodiscard]] TraceTarget target() const;
+  template <class Answer>
+  auto answer_one(const Answer& answer) -> Result<decltype(answer(std::declval<TraceWorker&>()))>;
   Status find_any(const RayView& rays, std::span<std::uint8_t> met);
   [[nodiscard]] Status check_sources(const RayView& rays) const;
   Status run(const RayView& rays, std::size_t results, const Body& body);

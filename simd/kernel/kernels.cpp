@@ -61,6 +61,7 @@ void trace_any(const PartsGeometry& geometry, const PaddedStream& stream, const 
 template <class Geometry>
 void closest_hit_in(const Geometry& geometry, const RayStream& rays, const Query& query,
                     const HitStream& hits) {
+  if (query.form == Form::single) return trace_alone(geometry, rays, query.solver, hits);
   const PaddedStream stream(rays);
   if (query.coherence == Coherence::none || query.coherence == Coherence::common_end ||
       !may_bundle(geometry, query)) {
@@ -73,6 +74,7 @@ void closest_hit_in(const Geometry& geometry, const RayStream& rays, const Query
 template <class Geometry>
 void any_hit_in(const Geometry& geometry, const RayStream& rays, const Query& query,
                 std::uint8_t* occluded) {
+  if (query.form == Form::single) return trace_alone(geometry, rays, query.solver, occluded);
   const PaddedStream stream(rays);
   if (query.coherence == Coherence::none || !may_bundle(geometry, query)) {
     trace_any(geometry, stream, query, occluded);

@@ -1,4 +1,5 @@
 // Packets and single rays against all primitives.
+#include "simd/kernel/search/packet/lone_ray.h"
 #include "simd/kernel/search/packet/packet_hits.h"
 #include "simd/kernel/search/packet/packet_stream.h"
 #include "simd/kernel/search/packet/short_search.h"
@@ -94,7 +95,75 @@ BOULE_INLINE std::size_t trace_pairs(const Geometry&, const PaddedStream&, std::
   return 0;
 }
 
+BOULE_INLINE bool has_others(const GeometryView& geometry) {
+  return geometry.spheres.scanned != 0 || geometry.planes.size != 0;
+}
+/// Tests the spheres outside the leaves, and the planes. Returns the best of all lanes.
+template <class Best>
+BOULE_INLINE Best meet_others(const GeometryView& geometry, const RayStream& rays,
+                              std::size_t index) {
+  RayLanes ray;
+  load_single(rays, index, ray);
+  Best best(ray);
+  scan_spheres<OnePerLane>(ray, Solver::robust, geometry.spheres, best);
+  best.settle(geometry.spheres, ray);
+  scan_planes<OnePerLane>(ray, Solver::robust, geometry.planes, best);
+  return best;
+}
+
+BOULE_INLINE void go_alone(const GeometryView& geometry, const RayStream& rays, std::size_t index,
+                           LoneRay& ray, const HitStream& hits) {
+  Hit hit;
+  float reach = ray.end();
+  if (has_others(geometry)) {
+    const auto best = meet_others<ClosestHit>(geometry, rays, index);
+    store_single(best, hits, index);
+    hit = {hits.t[index], hits.id[index], hits.slot[index]};
+    reach = least_lane(best.reach);
+  }
+  ray.find_nearest(reach, hit);
+  hits.t[index] = hit.t;
+  hits.id[index] = hit.id;
+  hits.slot[index] = hit.slot;
+}
+BOULE_INLINE void go_alone(const GeometryView& geometry, const RayStream& rays, std::size_t index,
+                           LoneRay& ray, std::uint8_t* met) {
+  bool meets = has_others(geometry) && meet_others<AnyHit<true>>(geometry, rays, index).done();
+  if (!meets) meets = ray.find_any(ray.end());
+  met[index] = meets ? 1 : 0;
+}
+
+/// Traces a ray as a LoneRay. Returns false if it cannot.
+template <class Answers>
+BOULE_INLINE bool try_alone(const GeometryView& geometry, const RayStream& rays, std::size_t index,
+                            Solver solver, const Answers& answers) {
+  if (solver != Solver::robust || geometry.bvh.size == 0) return false;
+  if (!(geometry.bvh.extent < filter::limit)) return false;
+  LoneRay ray(geometry, rays, index);
+  if (!ray.may()) return false;
+  go_alone(geometry, rays, index, ray, answers);
+  return true;
+}
+template <class Answers>
+BOULE_INLINE bool try_alone(const PartsGeometry&, const RayStream&, std::size_t, Solver,
+                            const Answers&) {
+  return false;
+}
+
 }  // namespace
+
+template <class Geometry, class Answers>
+void trace_alone(const Geometry& geometry, const RayStream& rays, Solver solver,
+                 const Answers& answers) {
+  for (std::size_t index = 0; index < rays.size; ++index) {
+    if (try_alone(geometry, rays, index, solver, answers)) continue;
+    RayLanes ray;
+    load_single(rays, index, ray);
+    typename BestOf<Answers>::Single best(ray);
+    search<OnePerLane>(ray, solver, geometry, best);
+    store_single(best, answers, index);
+  }
+}
 
 template <class Geometry, class Answers>
 std::size_t trace_groups(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
@@ -116,6 +185,10 @@ std::size_t trace_groups(const Geometry& geometry, const PaddedStream& stream, s
   return visits;
 }
 
+template void trace_alone(const GeometryView&, const RayStream&, Solver, const HitStream&);
+template void trace_alone(const GeometryView&, const RayStream&, Solver, std::uint8_t* const&);
+template void trace_alone(const PartsGeometry&, const RayStream&, Solver, const HitStream&);
+template void trace_alone(const PartsGeometry&, const RayStream&, Solver, std::uint8_t* const&);
 template std::size_t trace_groups(const GeometryView&, const PaddedStream&, std::size_t,
                                   std::size_t, Solver, Form, const HitStream&);
 template std::size_t trace_groups(const GeometryView&, const PaddedStream&, std::size_t,

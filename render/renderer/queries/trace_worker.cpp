@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/surface.h"
+
 namespace boule {
 namespace {
 
@@ -60,6 +62,13 @@ bool enters(const TraceTarget& target, const Ray& ray, const Hit& hit) {
   return is_nearer_to_enter(hit.t, reference::find_chord(ray, sphere, leaves));
 }
 
+/// The surface at which a ray hits: the same numbers as a kernel's.
+Surface surface_at(const Geometry& geometry, const Ray& ray, const Hit& hit) {
+  if (geometry.is_plane(hit)) return find_surface(geometry.plane(hit.id), ray, hit);
+  if (geometry.is_capsule(hit)) return find_surface(geometry.capsule(hit.slot), ray, hit);
+  return find_surface(geometry.sphere(hit.slot), ray, hit);
+}
+
 /// Whether a stream has this end of a ray as it is.
 bool is_float(double end) {
   constexpr double largest{std::numeric_limits<float>::max()};
@@ -75,8 +84,10 @@ void put(const HitStream& hits, std::size_t k, const Hit& hit) {
 }  // namespace
 
 void TraceWorker::start(std::size_t count) {
-  rays_.resize(count);
-  ends_.resize(count);
+  if (count != size()) {
+    rays_.resize(count);
+    ends_.resize(count);
+  }
   rounded_.clear();
 }
 
@@ -89,7 +100,7 @@ void TraceWorker::set(std::size_t k, const Ray& ray) {
 }
 
 void TraceWorker::meet_closest(const TraceTarget& target) {
-  hits_.resize(size());
+  if (hits_.size() != size()) hits_.resize(size());
   Query query{.solver = target.solver, .experience = &closest_};
   if (size() == 1) query.form = Form::single;
   target.kernels.closest_hit(target.geometry.view(), rays_.view(), query, hits_.view());
@@ -129,11 +140,29 @@ TracedHit TraceWorker::traced(const TraceTarget& target, std::size_t k, std::siz
           enters(target, rays_.get(k), hit)};
 }
 
+TracedHit TraceWorker::find_closest(const TraceTarget& target, const Ray& ray) {
+  start(1);
+  set(0, ray);
+  meet_closest(target);
+  const Hit hit = hits_.get(0);
+  if (hit.id == no_primitive) return {};
+  const Ray met = rays_.get(0);
+  return {hit.t, hit.id, vec_cast<float>(surface_at(target.geometry, met, hit).normal),
+          enters(target, met, hit)};
+}
+
+bool TraceWorker::find_any(const TraceTarget& target, const Ray& ray) {
+  start(1);
+  set(0, ray);
+  return find_any(target)[0] != 0;
+}
+
 /// Where the ends of a ray are no floats, a hit is certain if the ray meets something between the
 /// next floats inward, too. The few others need the nearest hit.
 const std::uint8_t* TraceWorker::find_any(const TraceTarget& target) {
   met_.resize(size());
-  const Query query{.solver = target.solver, .experience = &any_};
+  Query query{.solver = target.solver, .experience = &any_};
+  if (size() == 1) query.form = Form::single;
   target.kernels.any_hit(target.geometry.view(), rays_.view(), query, met_.data());
   std::vector<std::size_t>& unsure = again_;
   unsure.clear();

@@ -67,6 +67,10 @@ class TraceWorker {
     }
   }
 
+  /// The same for one ray: the nearest hit, and whether there is any.
+  TracedHit find_closest(const TraceTarget& target, const Ray& ray);
+  bool find_any(const TraceTarget& target, const Ray& ray);
+
   /// 1 for each ray that meets something, otherwise 0; valid until the next call.
   const std::uint8_t* find_any(const TraceTarget& target);
 

@@ -107,10 +107,20 @@ TEST(SingleRay, HitsAreThoseOfStreams) {
       std::vector<Ray> rays = ray_cloud(500);
       rays[3].tmin = 1e-300;
       rays[4].dir = {};
+      rays[5].tmin = -2;
+      rays[6].org.x = 1e30;
+      for (std::size_t k = 10; k < 200; ++k) rays[k].tmax = 0.1 * static_cast<double>(k);
       const std::vector<TracedHit> expected = closest(tracer, rays);
+      std::vector<std::uint8_t> met(rays.size());
+      ASSERT_TRUE(tracer.any(rays, met));
       std::vector<TracedHit> hits;
-      for (const Ray& ray : rays) hits.push_back(tracer.closest(ray).value());
+      std::size_t other_answers = 0;
+      for (std::size_t k = 0; k < rays.size(); ++k) {
+        hits.push_back(tracer.closest(rays[k]).value());
+        other_answers += tracer.any(rays[k]).value() != (met[k] != 0) ? 1 : 0;
+      }
       EXPECT_EQ(differing_hits(hits, expected), 0);
+      EXPECT_EQ(other_answers, 0U);
       for (std::size_t k = 0; k < rays.size(); ++k)
         EXPECT_EQ(hits[k].entering, expected[k].entering) << k;
     }
@@ -121,6 +131,7 @@ TEST(SingleRay, ATracerMovedAwayHasNone) {
   Tracer tracer = Tracer::create(objects(sphere_cloud(5))).value();
   const Tracer other = std::move(tracer);
   EXPECT_FALSE(tracer.closest(Ray{{0, 0, 0}, {0, 0, 1}}));
+  EXPECT_FALSE(tracer.any(Ray{{0, 0, 0}, {0, 0, 1}}));
   EXPECT_FALSE(tracer.update({}));
 }
 

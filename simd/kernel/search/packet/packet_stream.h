@@ -19,4 +19,10 @@ template <class Geometry, class Answers>
 std::size_t trace_groups(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
                          std::size_t end, Solver solver, Form form, const Answers& answers);
 
+/// The same for all rays of a stream, each alone: without the copies that fill packets up.
+/// (packets.cpp)
+template <class Geometry, class Answers>
+void trace_alone(const Geometry& geometry, const RayStream& rays, Solver solver,
+                 const Answers& answers);
+
 }  // namespace boule::BOULE_KERNEL_ISA
