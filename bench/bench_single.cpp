@@ -1,0 +1,173 @@
+// One ray a call: nanoseconds of Tracer::closest(const Ray&) and Tracer::any(const Ray&) beside
+// Embree's rtcIntersect1 and rtcOccluded1 on its built-in spheres, interleaved in one run; medians.
+//
+//   bench_single [scene...]
+//
+// The rays are chords from one random point of the sphere around a scene to another, so that no ray
+// has anything in common with the one before it. Embree answers in float, without a normal of the
+// surface that the ray meets where it leaves the sphere; how many of its hits are other spheres is
+// printed.
+#include <embree3/rtcore.h>
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/scenes/bench_scenes.h"
+#include "bench/scenes/ray_kinds.h"
+#include "bench/tools/median.h"
+#include "bench/tools/wall_seconds.h"
+#include "core/math/geometry.h"
+#include "render/renderer/tracer.h"
+
+namespace boule::bench {
+namespace {
+
+constexpr int side = 256;  // as many rays as pixels
+constexpr int repetitions = 11;
+
+/// Embree's spheres, in the caller's memory.
+class EmbreeSpheres {
+ public:
+  explicit EmbreeSpheres(const std::vector<Sphere>& spheres) {
+    for (const Sphere& s : spheres)
+      points_.insert(points_.end(), {s.center.x, s.center.y, s.center.z, s.radius});
+    RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                               points_.data(), 0, 4 * sizeof(float), spheres.size());
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene_, geometry);
+    rtcReleaseGeometry(geometry);
+    rtcCommitScene(scene_);
+  }
+  ~EmbreeSpheres() {
+    rtcReleaseScene(scene_);
+    rtcReleaseDevice(device_);
+  }
+  EmbreeSpheres(const EmbreeSpheres&) = delete;
+  EmbreeSpheres& operator=(const EmbreeSpheres&) = delete;
+
+  [[nodiscard]] unsigned closest(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRayHit query{};
+    set(ray, query.ray);
+    query.hit.geomID = query.hit.primID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context, &query);
+    return query.hit.primID;
+  }
+  [[nodiscard]] bool any(const Ray& ray) const {
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    RTCRay query{};
+    set(ray, query);
+    rtcOccluded1(scene_, &context, &query);
+    return query.tfar < 0;
+  }
+
+ private:
+  static void set(const Ray& ray, RTCRay& to) {
+    to.org_x = static_cast<float>(ray.org.x);
+    to.org_y = static_cast<float>(ray.org.y);
+    to.org_z = static_cast<float>(ray.org.z);
+    to.dir_x = ray.dir.x;
+    to.dir_y = ray.dir.y;
+    to.dir_z = ray.dir.z;
+    to.tfar = static_cast<float>(ray.tmax);
+    to.mask = ~0U;
+  }
+
+  std::vector<float> points_;
+  RTCDevice device_ = rtcNewDevice("threads=1");
+  RTCScene scene_ = rtcNewScene(device_);
+};
+
+/// The rays of a scene, with unit directions: Embree's spheres are least exact without them.
+std::vector<Ray> chords(const BenchScene& scene) {
+  const RayBuffer pixels(std::size_t{side} * side);
+  const RayBuffer made = make_rays(RayKind::chord, scene, {side, &pixels, nullptr});
+  std::vector<Ray> rays;
+  for (std::size_t k = 0; k < made.size(); ++k) {
+    Ray ray = made.get(k);
+    const double size = length(vec_cast<double>(ray.dir));
+    ray.dir = vec_cast<float>(vec_cast<double>(ray.dir) * (1 / size));
+    ray.tmax *= size;
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+/// Nanoseconds of answer(ray) for each ray.
+double nanoseconds(const std::vector<Ray>& rays, const auto& answer) {
+  const double seconds = wall_seconds([&] {
+    for (const Ray& ray : rays) answer(ray);
+  });
+  return seconds * 1e9 / static_cast<double>(rays.size());
+}
+
+struct Times {
+  std::vector<double> ours, theirs;
+};
+
+void print(const std::string& what, const Times& times, std::size_t others) {
+  const double ours = median(times.ours), theirs = median(times.theirs);
+  std::printf("%-28s Boule %7.0f ns  Embree %7.0f ns  Embree / Boule %.2f  other answers %zu\n",
+              what.c_str(), ours, theirs, theirs / ours, others);
+}
+
+int compare(const std::string& name) {
+  auto scene = make_scene(name);
+  if (!scene) {
+    std::fprintf(stderr, "%s\n", scene.error().message.c_str());
+    return 2;
+  }
+  const std::vector<Ray> rays = chords(scene.value());
+  Scene objects;
+  objects.materials = {{"", Matte{}}};
+  objects.spheres = scene.value().spheres;
+  TraceOptions options;
+  options.threads = 1;
+  auto tracer = Tracer::create(std::move(objects), options);
+  const EmbreeSpheres embree(scene.value().spheres);
+
+  Times closest, any;
+  std::size_t other_hits = 0, other_answers = 0;
+  for (int k = 0; k < repetitions; ++k) {
+    std::vector<unsigned> hits;
+    std::vector<bool> met;
+    hits.reserve(rays.size());
+    met.reserve(rays.size());
+    closest.theirs.push_back(
+        nanoseconds(rays, [&](const Ray& ray) { hits.push_back(embree.closest(ray)); }));
+    std::size_t at = 0;
+    other_hits = 0;
+    closest.ours.push_back(nanoseconds(rays, [&](const Ray& ray) {
+      const auto id = static_cast<unsigned>(tracer.value().closest(ray).value().id);
+      other_hits += id != hits[at++] ? 1 : 0;
+    }));
+    any.theirs.push_back(
+        nanoseconds(rays, [&](const Ray& ray) { met.push_back(embree.any(ray)); }));
+    at = other_answers = 0;
+    any.ours.push_back(nanoseconds(rays, [&](const Ray& ray) {
+      other_answers += tracer.value().any(ray).value() != met[at++] ? 1 : 0;
+    }));
+  }
+  print(name + " closest", closest, other_hits);
+  print(name + " any", any, other_answers);
+  return 0;
+}
+
+}  // namespace
+}  // namespace boule::bench
+
+int main(int argc, char** argv) {
+  std::vector<std::string> names(argv + 1, argv + argc);
+  if (names.empty()) names = {"u1000", "u100000", "protein50000", "u1000000"};
+  for (const std::string& name : names) {
+    if (const int code = boule::bench::compare(name); code != 0) return code;
+  }
+  return 0;
+}
