@@ -3,11 +3,16 @@
 import importlib.util
 import sys
 
-for needed in ("numpy", "pytest"):
-    if importlib.util.find_spec(needed) is None:
-        print(f"skipped: there is no {needed}")
-        sys.exit(77)
 
-import pytest
+def main():
+    for needed in ("numpy", "pytest"):
+        if importlib.util.find_spec(needed) is None:
+            print(f"skipped: there is no {needed}")
+            return 77
+    import pytest
 
-sys.exit(pytest.main(["-q", "-rs", "-p", "no:cacheprovider", "--durations=3", sys.argv[1]]))
+    return pytest.main(["-q", "-rs", "-p", "no:cacheprovider", "--durations=3", sys.argv[1]])
+
+
+if __name__ == "__main__":
+    sys.exit(main())
