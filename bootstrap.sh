@@ -21,16 +21,18 @@ readonly python_packages=(python3-dev python3-numpy python3-pybind11 pybind11-de
 readonly python_test_packages=(mypy python3-ase python3-h5py python3-ipykernel python3-matplotlib python3-mdanalysis
   python3-nbclient python3-pytest python3-sphinx)
 readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev python3-matplotlib)
+readonly wheel_packages=(binutils patchelf python3-pip python3-setuptools python3-wheel)
 readonly package_packages=(debhelper dh-python dpkg-dev git libmpich-dev libopenmpi-dev lintian)
 
 usage() {
   cat <<'TEXT'
-usage: ./bootstrap.sh render|test|python|report|package
+usage: ./bootstrap.sh render|test|python|wheel|report|package
   render  install what is missing, build the program in build/release, render scenes/first_light.toml to
           first_light.png
   test    install what is missing, build the tests in build/test and run them
   python  install what is missing, build the Python package in build/python, run its tests, say how to
           import it
+  wheel   install what is missing, make a wheel in build/wheel that runs on other distributions
   report  install what is missing, build the benchmarks in build/bench, measure speed against error
           (about 10 minutes), write report.html and what the README shows of it
   package install what is missing, make Debian packages and a source tarball of what is committed in
@@ -105,6 +107,12 @@ python() {
   echo "bootstrap: import it by  PYTHONPATH=$PWD/build/python /usr/bin/python3 -c 'import boule'"
 }
 
+wheel() {
+  install_missing "${build_packages[@]}" "${python_packages[@]}" "${wheel_packages[@]}"
+  /usr/bin/python3 packaging/wheel.py build/wheel
+  echo "bootstrap: install it by  pip install build/wheel/*.whl"
+}
+
 report() {
   install_missing "${build_packages[@]}" "${bench_packages[@]}"
   cmake --preset release -G Ninja -B build/bench -DBOULE_BENCH=ON -DBOULE_TESTS=OFF
@@ -126,6 +134,7 @@ case "$1" in
   render) render ;;
   test) run_tests ;;
   python) python ;;
+  wheel) wheel ;;
   report) report ;;
   package) package ;;
   -h | --help | help) usage ;;

@@ -13,6 +13,13 @@ from setuptools.command.build_ext import build_ext
 ROOT = pathlib.Path(__file__).resolve().parent
 
 
+def description():
+    """README.md, whose links lead into the source: their texts alone."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8")
+    text = re.sub(r"^!\[.*\n", "", text, flags=re.M)
+    return re.sub(r"\[([^]]+)\]\((?!https?:)[^)]+\)", r"\1", text)
+
+
 def version():
     """That of CMakeLists.txt."""
     text = (ROOT / "CMakeLists.txt").read_text(encoding="utf-8")
@@ -24,12 +31,13 @@ class CMakeBuild(build_ext):
         build = pathlib.Path(self.build_temp).resolve() / "cmake"
         subprocess.run(
             ["cmake", "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release", "-DBOULE_PYTHON=ON",
+             "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=32",
              "-DBOULE_TESTS=OFF", f"-DPython_EXECUTABLE={sys.executable}",
              *os.environ.get("CMAKE_ARGS", "").split()],
             check=True,
         )  # fmt: skip
         subprocess.run(
-            ["cmake", "--build", build, "--target", "boule_python",
+            ["cmake", "--build", build, "--target", "boule_python", "boule_program",
              "--parallel", str(os.cpu_count() or 1)], check=True
         )
         target = pathlib.Path(self.build_lib) / "boule"
@@ -40,10 +48,14 @@ class CMakeBuild(build_ext):
         shutil.copy2(build / "bin" / "boule_image_io.so", target)
         for overlay in (build / "bin").glob("boule_overlay.so"):  # where pango was there
             shutil.copy2(overlay, target)
+        (target / "bin").mkdir(exist_ok=True)
+        shutil.copy2(build / "bin" / "boule", target / "bin")
 
 
 setup(
     version=version(),
+    long_description=description(),
+    long_description_content_type="text/markdown",
     ext_modules=[Extension("boule._core", sources=[])],
     cmdclass={"build_ext": CMakeBuild},
 )

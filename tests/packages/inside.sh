@@ -28,10 +28,10 @@ example_says() {
 }
 
 apt-get update -q >log
-dpkg --purge python3-boule libboule-dev libboule2.0 boule-mpi boule >>log 2>&1  # what a failed trial left
+dpkg --purge python3-boule libboule-dev libboule2.0 boule-mpi boule-image-formats boule >>log 2>&1  # what a failed trial left
 # What the packages need is installed before, so that what is left at the end is theirs.
 depends=$(for deb in *.deb; do dpkg-deb -f "$deb" Depends; done | tr ',' '\n' | sed 's/(.*)//; s/|.*//; s/ //g' |
-  grep -vE '^(boule|boule-image-module-.*|libboule2.0|)$' | sort -u)
+  grep -vE '^(boule|libboule2.0|)$' | sort -u)
 # shellcheck disable=SC2086 # one word each
 install $depends g++ cmake ninja-build pkg-config openmpi-bin mpich man-db
 files >before
@@ -56,15 +56,19 @@ for file in bash-completion/completions/boule fish/vendor_completions.d/boule.fi
   zsh/vendor-completions/_boule doc/boule/docs/library.md doc/boule/copyright; do
   [[ -s /usr/share/$file ]] || fail "/usr/share/$file is missing"
 done
+boule render mine/first_light.toml -o no.exr --size 64x36 -q 2>err && fail "an EXR without boule-image-formats"
+grep -q OpenImageIO err || fail "what an EXR needs is not said: $(cat err)"
+install ./boule-image-formats_*.deb
+boule render mine/first_light.toml -o first.exr --size 64x36 -q
 # All that the manual's pages lead to is there.
 bash docs/links.sh /usr/share/doc/boule installed || fail "links of the manual lead nowhere"
 
 echo "packages: libboule-dev"
 # Programs with the library stay where the program is another version, of the same module.
-needs=$(dpkg-deb -f libboule2.0_*.deb Depends)
+needs=$(dpkg-deb -f libboule2.0_*.deb Depends Recommends)
 ! grep -qE 'boule \(|\(= ' <<<"$needs" || fail "libboule2.0 needs one version: $needs"
-module=$(dpkg-deb -f boule_*.deb Provides)
-[[ $module == boule-image-module-[0-9]* && ", $needs," == *", $module,"* ]] || fail "'$module' is not needed: $needs"
+module=$(dpkg-deb -f boule-image-formats_*.deb Provides)
+[[ $module == boule-image-module-[0-9]* && "$needs" == *"Recommends: $module"* ]] || fail "'$module' is not recommended: $needs"
 install ./libboule2.0_*.deb ./libboule-dev_*.deb
 for kind in boule shared; do
   cmake -S consumer/find_package -B "build-$kind" -G Ninja -DBOULE_LIBRARY="boule::$kind" >>log
@@ -109,7 +113,7 @@ for mpirun in mpirun.openmpi mpirun.mpich; do
   cmp first.png team.png || fail "$mpirun renders another picture"
 done
 
-apt-get purge -q -y boule boule-mpi libboule2.0 libboule-dev python3-boule >>log
+apt-get purge -q -y boule boule-mpi boule-image-formats libboule2.0 libboule-dev python3-boule >>log
 rm -rf /root/.cache
 files >after
 diff before after || fail "something is left, or gone"

@@ -1,6 +1,8 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <cstdlib>
+#include <sstream>
 #include <utility>
 
 #include "render/apps/cli/commands/commands.h"
@@ -49,6 +51,22 @@ void open_browser(const std::string& url) {
   if (status != 0) print_note("boule: note: the browser could not be opened");
 }
 
+/// Who has logged in by ssh cannot open this machine's own address: a note how a tunnel does it.
+void tell_tunnel(const std::string& url) {
+  const char* const connection = std::getenv("SSH_CONNECTION");  // client, port, server, port
+  const std::string host = "127.0.0.1:";
+  const std::size_t at = url.find(host);
+  if (connection == nullptr || at == std::string::npos) return;
+  std::istringstream words(connection);
+  std::string client, client_port, server, server_port;
+  if (!(words >> client >> client_port >> server >> server_port)) return;
+  const std::size_t digits = at + host.size();
+  const std::string port = url.substr(digits, url.find('/', digits) - digits);
+  print_note("boule: note: to open it on the machine that you came from, run there: ssh -N -L " +
+             port + ":" + host + port + (server_port == "22" ? "" : " -p " + server_port) + " " +
+             printable(server));
+}
+
 ExitCode serve(const ViewCommand& command, view::WebServer& server, view::ViewSession& session,
                const std::string& token) {
   Status written;
@@ -61,6 +79,7 @@ ExitCode serve(const ViewCommand& command, view::WebServer& server, view::ViewSe
   settings.ready = [&](const std::string& url) {
     written = print_data(url + "\n");
     if (reader_left()) leave_unread();
+    tell_tunnel(url);
     if (written && command.open) open_browser(url);
   };
   const StopGuard guard(OnSignal::stop);

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "core/base/text.h"
 #include "core/scene/number_text.h"
 #include "render/files/particle_file/frame/particle_format.h"
 #include "render/files/particle_file/lammps/id_order.h"

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdlib>
 
 #include "tests/render/apps/cli/program.h"
 #include "tests/render/apps/cli/running_program.h"
@@ -23,6 +24,20 @@ TEST_F(View, PrintsItsAddressAndEndsIdle) {
   const ProgramRun run = boule_run({"view", small_scene(), "--idle", "50ms"});
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_THAT(run.out, MatchesRegex(url_line));
+}
+
+/// From another machine, whose browser cannot open an address of this one.
+TEST_F(View, TellsTheTunnelOfSsh) {
+  ::setenv("SSH_CONNECTION", "198.51.100.9 53211 192.0.2.7 2222", 1);
+  const ProgramRun run = boule_run({"view", small_scene(), "--idle", "50ms"});
+  const ProgramRun open =
+      boule_run({"view", small_scene(), "--listen", "0.0.0.0", "--idle", "50ms"});
+  ::unsetenv("SSH_CONNECTION");
+  const std::string port = run.out.substr(17, run.out.find('/', 17) - 17);
+  EXPECT_THAT(run.err,
+              HasSubstr("ssh -N -L " + port + ":127.0.0.1:" + port + " -p 2222 192.0.2.7\n"));
+  EXPECT_EQ(open.exit_code, 0) << open.err;
+  EXPECT_THAT(open.err, testing::Not(HasSubstr("ssh")));
 }
 
 TEST_F(View, EndsAtASignal) {
