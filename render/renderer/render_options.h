@@ -16,6 +16,7 @@
 #include "render/frame/progress.h"
 #include "render/renderer/aov_channels.h"
 #include "render/renderer/edge_block.h"
+#include "render/renderer/run_statistics.h"  // the names of solvers
 #include "simd/abi/isa.h"
 
 namespace boule {

@@ -8,7 +8,6 @@
 #include "core/base/error.h"
 #include "core/scene/names.h"
 #include "core/scene/scene.h"
-#include "render/renderer/run_statistics.h"
 
 namespace boule {
 namespace {
