@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/errors/capsule_errors.h"
 #include "bench/errors/epsilons.h"
 #include "bench/errors/hard_errors.h"
 #include "bench/errors/noise_errors.h"
@@ -31,7 +32,7 @@ struct Provenance {
   std::string command;
 };
 
-/// One contender's errors in one hard case.
+/// One contender's errors in one hard case, of spheres or of capsules.
 struct CaseErrors {
   std::string hard_case, isa;
   HardErrors errors;
@@ -54,8 +55,9 @@ struct Figures {
   ReportSettings settings;
   Provenance provenance;
   std::vector<SolverSpeed> speeds;
-  std::vector<CaseErrors> cases;  ///< of every ISA
-  std::string widest;             ///< the ISA of the map
+  std::vector<CaseErrors> cases;     ///< of every ISA
+  std::vector<CaseErrors> capsules;  ///< of the widest
+  std::string widest;                ///< the ISA of the map
   ErrorMap map;
   std::vector<EpsilonFigure> epsilons;
   std::vector<EpsilonPicture> pictures;

@@ -79,6 +79,7 @@ std::string to_json(const Figures& figures) {
                        {"settings", figures.settings},
                        {"speeds", figures.speeds},
                        {"cases", figures.cases},
+                       {"capsules", figures.capsules},
                        {"widest", figures.widest},
                        {"map", figures.map.cells},
                        {"epsilons", figures.epsilons},

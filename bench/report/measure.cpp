@@ -46,6 +46,15 @@ std::vector<CaseErrors> measure_cases(std::size_t rays) {
   return cases;
 }
 
+std::vector<CaseErrors> measure_capsules(std::size_t rays, const std::string& isa) {
+  std::vector<CaseErrors> cases;
+  for (const test::CapsuleCaseSpec& spec : test::capsule_case_specs()) {
+    for (HardErrors& errors : capsule_errors(spec, rays))
+      cases.push_back({name_of(spec), isa, std::move(errors)});
+  }
+  return cases;
+}
+
 /// Measures scenes of this source tree. A scene that cannot be loaded is reported and left out.
 std::vector<ScenePathErrors> measure_paths(int reference) {
   std::vector<ScenePathErrors> all;
@@ -95,6 +104,7 @@ Figures measure(const ReportSettings& settings, const std::string& command) {
   figures.speeds = measure_solver_speeds(quick ? few : all, quick ? 5 : 15, quick ? 256 : 512);
   say("hard cases");
   figures.cases = measure_cases(quick ? 500 : 5000);
+  figures.capsules = measure_capsules(quick ? 500 : 5000, figures.widest);
   say("distance and grazing");
   figures.map = map_errors(quick ? 100 : 1000, widest);
   say("epsilons");

@@ -78,16 +78,16 @@ def solver_table(report):
                         "distance from the surface: likewise": "{residual}"})
 
 
-def case_table(report):
-    """Three columns for each hard case and solver."""
+def case_table(report, kind):
+    """Three columns for each hard case and solver. `kind`: "cases" of spheres, or "capsules"."""
     lines = {}
-    for row in report["cases"]:
+    for row in report[kind]:
         if row["isa"] == report["widest"]:
             judged = f"{row['ulp_p99']:.2g} | {row['residual_u']:.2g}" if is_judged(row) else "- | -"
             lines.setdefault(row["case"], {"case": row["case"]})[row["solver"]] = (
                 f"{row['wrong_decisions'] + row['wrong_roots']} | {judged}")
     return table(lines.values(), {"hard case": "{case}"} | {
-        solvers.NAMES[solver]: f"{{{solver}}}" for solver in solvers.unique(report["cases"], "solver")
+        solvers.NAMES[solver]: f"{{{solver}}}" for solver in solvers.unique(report[kind], "solver")
         if all(solver in line for line in lines.values())})
 
 
@@ -165,7 +165,7 @@ def page(report, charts):
         chart_style=charts.style() if charts else "", provenance=provenance(report), speeds=figures("speeds"),
         worst_ratio=f"{worst['to_fast']:.2f}", worst_place=", ".join(worst["place"]), costs=cost_table,
         widest=report["widest"], errors=figures("errors"), solvers=solver_table(report),
-        cases=case_table(report), sums=sum_table(report), epsilons=figures("epsilons"),
+        cases=case_table(report, "cases"), capsules=case_table(report, "capsules"), sums=sum_table(report), epsilons=figures("epsilons"),
         pictures=pictures(report), growth=figures("growth"), path_size="{} x {}".format(*report["path_size"]),
         paths=figures("paths") + path_table(report), noise=figures("noise") + noise_table(report),
         embree=html.escape(f"Embree {peers['embree']}") if peers else "This build found no Embree 3 (libembree-dev)",

@@ -12,7 +12,11 @@ namespace boule::bench {
 std::optional<PeerRows> measure_peers(bool quick) {
   RefereeSettings settings;
   settings.scenes = quick ? std::vector<std::string>{"u1000", "flake4"} : scene_names();
-  settings.scenes.emplace_back(quick ? "sticks1000" : "sticks50000");  // round linear curves, too
+  if (quick) {
+    settings.scenes.emplace_back("sticks24");
+  } else {  // round linear curves, too
+    settings.scenes.insert(settings.scenes.end(), {"sticks24", "sticks50000", "cell1000000"});
+  }
   settings.kinds = {RayKind::primary, RayKind::shadow};
   settings.isas = embree_isas();
   if (settings.isas.empty()) return std::nullopt;

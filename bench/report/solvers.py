@@ -4,7 +4,8 @@ NAMES = {
     "bundle": "robust, bundles (ours)", "robust": "robust, packets (ours)", "fast": "fast, packets (ours)",
     "half_b": "half-b", "textbook": "textbook", "stable_q": "stable q", "kahan": "Kahan",
     "closest_approach": "closest approach", "half_b_double": "half-b, double",
-    "closest_approach_double": "closest approach, double"}
+    "closest_approach_double": "closest approach, double",
+    "textbook_double": "textbook, double", "embree_curves": "Embree's curves"}
 
 
 def unique(rows, key):

@@ -25,6 +25,10 @@ double scale_of(const Ray& ray, const Plane& plane) {
   const Vec3d f = vec_cast<double>(plane.point) - ray.org;
   return std::hypot(f.x, f.y, f.z);
 }
+double scale_of(const Ray& ray, const Capsule& capsule) {
+  const Vec3d a = vec_cast<double>(capsule.a), f = a - ray.org, u = vec_cast<double>(capsule.b) - a;
+  return std::max({length(f), length(u), double{capsule.radius}});
+}
 
 /// Whether t is well-posed: see max_clear_ulp.
 bool is_clear(const Ray& ray, const Sphere& sphere, const OracleHit& truth) {
@@ -36,6 +40,14 @@ bool is_clear(const Ray& ray, const Sphere& sphere, const OracleHit& truth) {
          t * other > 0x1p-22 * scale * scale;
 }
 bool is_clear(const Ray&, const Plane&, const OracleHit&) { return true; }
+bool is_clear(const Ray& ray, const Capsule& capsule, const OracleHit& truth) {
+  const double t = truth.t.to_double();
+  const Vec3d d = vec_cast<double>(ray.dir), p = ray.org + d * t;
+  const Vec3d a = vec_cast<double>(capsule.a), u = vec_cast<double>(capsule.b) - a;
+  const double uu = dot(u, u), s = uu > 0 ? std::clamp(dot(p - a, u) / uu, 0.0, 1.0) : 0;
+  const double across = std::fabs(dot(normalize(p - (a + u * s)), d));  // |d| cos
+  return std::fabs(t) * across > 0x1p-20 * scale_of(ray, capsule);
+}
 
 }  // namespace
 
@@ -72,6 +84,7 @@ void HardFigures::add(const Ray& ray, const Primitive& primitive, double t,
 
 template void HardFigures::add(const Ray&, const Sphere&, double, const std::optional<OracleHit>&);
 template void HardFigures::add(const Ray&, const Plane&, double, const std::optional<OracleHit>&);
+template void HardFigures::add(const Ray&, const Capsule&, double, const std::optional<OracleHit>&);
 
 double HardFigures::ulp_quantile(double p) {
   if (ulps_.empty()) return 0;
