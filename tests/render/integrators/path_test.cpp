@@ -8,6 +8,7 @@
 #include "core/math/warp.h"
 #include "core/optics/camera_builder.h"
 #include "core/optics/camera_ray.h"
+#include "core/reference.h"
 #include "render/prepare/prepared_scene.h"
 #include "simd/dispatch/dispatch.h"
 #include "tests/render/path_scenes.h"
@@ -145,6 +146,41 @@ TEST(PathLight, LightsBelowTheHorizonCountInPart) {
     const double expected = plane_radiance(2, double{tilt});
     EXPECT_NEAR(mean_luminance(scene), expected, 0.005 * expected) << tilt;
   }
+}
+
+/// The irradiance over pi that a capsule of radiance 1 gives the plane's point (0, 0, 0): the share
+/// of rays that meet it, by a grid of directions as dense as their cosine.
+double shown_share(const Capsule& capsule) {
+  constexpr int side = 1000;
+  int met = 0;
+  for (int i = 0; i < side; ++i) {
+    const double u = (i + 0.5) / side, across = std::sqrt(u), up = std::sqrt(1 - u);
+    for (int k = 0; k < side; ++k) {
+      const double turn = 2 * elementary::pi * (k + 0.5) / side;
+      const Vec3d direction = {across * std::cos(turn), up, across * std::sin(turn)};
+      const Ray ray = {{0, 0, 0}, vec_cast<float>(direction)};
+      met += std::isfinite(reference::intersect(ray, capsule, false)) ? 1 : 0;
+    }
+  }
+  return static_cast<double>(met) / (side * side);
+}
+
+/// Capsules are found by paths alone, beside lamps that are sampled as well: no light is counted
+/// twice or lost.
+TEST(PathLight, EmissiveCapsulesGiveTheirLight) {
+  Scene scene = lit_plane(0, 0);
+  scene.image.spp = 4096;
+  scene.render.max_depth = 1;
+  const MaterialRef lamp = add_material(scene, Emissive{gray(1)});
+  scene.capsules = {{{-1, 1, 0.5f}, {1.5f, 2, 0.5f}, 0.5f, lamp}};
+  const double alone = shown_share(scene.capsules[0]);
+  EXPECT_NEAR(mean_luminance(scene) / alone, 1, 0.01);
+  scene.spheres = {{{0, 3, -4}, 1, lamp}};
+  const double of_sphere = 1.0 / 25 * (3.0 / 5);
+  EXPECT_NEAR(mean_luminance(scene) / (alone + of_sphere), 1, 0.01);
+  scene.lights = {SphereLight{{0, 3, -4}, 1, gray(1)}};  // in place of the sphere
+  scene.spheres.clear();
+  EXPECT_NEAR(mean_luminance(scene) / (alone + of_sphere), 1, 0.01);
 }
 
 /// Both methods agree on what both compute: the direct light of point lights on matte objects.
