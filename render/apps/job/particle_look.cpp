@@ -201,6 +201,8 @@ void add_particles(std::string& text, const std::string& file, const LookOptions
   if (options.arrow_scale) add_line(text, "arrow_scale", number(*options.arrow_scale));
   if (!options.select.empty()) add_line(text, "select", toml_string(options.select));
   if (options.wrap) add_line(text, "wrap", "true");
+  if (options.unwrap) add_line(text, "unwrap", "true");
+  if (options.boundary) add_line(text, "boundary", "true");
   if (options.replicate) {
     const auto& [a, b, c] = *options.replicate;
     add_line(text, "replicate", fmt::format("[{}, {}, {}]", a, b, c));

@@ -63,6 +63,8 @@ struct LookOptions {
   std::optional<double> arrow_scale{};            ///< times the vectors, > 0
   std::optional<double> scale{};                  ///< of the radii, > 0
   bool wrap = false;                              ///< into the cell
+  bool unwrap = false;                            ///< molecules are whole
+  bool boundary = false;                          ///< images on the faces of the cell
   std::optional<std::array<int, 3>> replicate{};  ///< images along the cell's edges
   std::string select{};                           ///< which particles
   std::optional<ViewChoice> view{};               ///< in which the camera looks

@@ -48,8 +48,8 @@ std::size_t CellImages::size() const {
 
 Vec3d CellImages::shift(std::size_t image) const { return shift(place(image)); }
 
-std::array<std::int64_t, 3> CellImages::place(std::size_t image) const {
-  std::array<std::int64_t, 3> place{};
+ImagePlace CellImages::place(std::size_t image) const {
+  ImagePlace place{};
   for (std::size_t k = 0; k < 3; ++k) {
     const auto count = static_cast<std::size_t>(counts_[k]);
     place[k] = static_cast<std::int64_t>(image % count);
@@ -58,7 +58,7 @@ std::array<std::int64_t, 3> CellImages::place(std::size_t image) const {
   return place;
 }
 
-Vec3d CellImages::shift(const std::array<std::int64_t, 3>& place) const {
+Vec3d CellImages::shift(const ImagePlace& place) const {
   Vec3d shift{};
   const std::array<Vec3d, 3> vectors{cell_.a, cell_.b, cell_.c};
   for (std::size_t k = 0; k < 3; ++k) {

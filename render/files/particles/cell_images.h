@@ -19,6 +19,9 @@ namespace boule {
 Status wrap_into(const ParticleCell& cell, std::vector<Vec3d>& positions,
                  const ParallelFor& parallel_for);
 
+/// How many vectors a, b and c an image is away from where the frame has the particles.
+using ImagePlace = std::array<std::int64_t, 3>;
+
 /// Where the periodic images of a cell are.
 class CellImages {
  public:
@@ -34,9 +37,9 @@ class CellImages {
   [[nodiscard]] Vec3d shift(std::size_t image) const;
 
   /// How many vectors a, b and c an image is away from image 0.
-  [[nodiscard]] std::array<std::int64_t, 3> place(std::size_t image) const;
+  [[nodiscard]] ImagePlace place(std::size_t image) const;
   /// By how much what is so many vectors away is moved, among the images or beyond them.
-  [[nodiscard]] Vec3d shift(const std::array<std::int64_t, 3>& place) const;
+  [[nodiscard]] Vec3d shift(const ImagePlace& place) const;
   [[nodiscard]] const std::array<int, 3>& counts() const { return counts_; }
 
  private:

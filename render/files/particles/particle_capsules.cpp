@@ -6,6 +6,7 @@
 
 #include "core/base/float_environment.h"
 #include "core/math/geometry.h"
+#include "render/files/particles/bonds/whole_molecules.h"
 #include "render/files/particles/particle_columns.h"
 #include "render/files/particles/particle_spheres.h"
 #include "render/memory/available_memory.h"
@@ -34,6 +35,16 @@ std::string arrow_column(const ParticleFrame& frame, const ArrowColumns& arrows,
 
 bool is_capsule(double radius) { return radius > 0 && static_cast<float>(radius) > 0; }
 
+/// Drops the capsules from `first` on, with an error, if one cannot be drawn.
+Status check_capsules(std::vector<Capsule>& capsules, std::size_t first) {
+  if (std::none_of(capsules.begin() + static_cast<std::ptrdiff_t>(first), capsules.end(),
+                   [](const Capsule& one) { return find_problem(one).has_value(); })) {
+    return {};
+  }
+  capsules.resize(first);
+  return Diagnostic::about("file", "a bond or an arrow ends too far from the origin for a capsule");
+}
+
 }  // namespace
 
 /// Finds the bonds, and gives the spheres the radii that go with them.
@@ -54,6 +65,9 @@ Status ParticleSpheres::add_bonds(const ParticleStyle& style, const BondPlan& pl
   auto bonds = make_bonds(frame, plan, radii_, images_.size(), parallel_for);
   if (!bonds) return bonds.error();
   bonds_ = std::move(bonds).value();
+  if (style.unwrap) {
+    if (auto done = unwrap(plan, parallel_for); !done) return done;
+  }
   const bool fills_space = plan.shape == ParticleShape::space_filling;
   if (fills_space && bonds_.empty() && !style.arrows) return {};
   double radius = choose_bond_radius(frame, style, plan, smallest_radius_, own_);
@@ -68,6 +82,31 @@ Status ParticleSpheres::add_bonds(const ParticleStyle& style, const BondPlan& pl
   if (!radii) return radii.error();
   radii_ = std::move(radii.value().radii);
   smallest_radius_ = radii.value().smallest;
+  return {};
+}
+
+/// Moves bonded particles together, along the bonds that are drawn or else those of the automatic
+/// rule.
+Status ParticleSpheres::unwrap(const BondPlan& plan, const ParallelFor& parallel_for) {
+  ParticleFrame& frame = *frame_;
+  const bool draws_none = plan.bonds == BondChoice(BondRule::none);
+  std::vector<Bond> found;
+  if (draws_none) {
+    BondPlan automatic = plan;
+    automatic.bonds = BondRule::automatic;
+    auto bonds = make_bonds(frame, automatic, radii_, 1, parallel_for);
+    if (!bonds) return bonds.error();
+    found = std::move(bonds).value();
+  }
+  const auto endless =
+      join_molecules(*frame.cell, plan.wraps, frame.positions, draws_none ? found : bonds_);
+  if (!endless) return endless.error();
+  if (endless.value() == 0) return {};
+  const std::string count = std::to_string(endless.value());
+  frame.notes.push_back(
+      endless.value() == 1
+          ? "one molecule goes through the cell without end, and stays as it is"
+          : count + " molecules go through the cell without end, and stay as they are");
   return {};
 }
 
@@ -96,19 +135,45 @@ Status ParticleSpheres::add_arrows(const ParticleStyle& style) {
 Status ParticleSpheres::append_capsules_to(std::vector<Capsule>& capsules,
                                            const Vec3d& origin) const {
   append_lines_to(capsules, origin);
-  return append_capsules_of(images_, capsules, origin);
+  if (auto done = append_capsules_of(images_, &boundary_, capsules, origin); !done) return done;
+  return append_boundary_capsules_to(capsules, origin);
 }
 
 Status ParticleSpheres::append_first_capsules_to(std::vector<Capsule>& capsules,
                                                  const Vec3d& origin) const {
-  return append_capsules_of(CellImages(frame_->cell.value_or(ParticleCell()), {1, 1, 1}), capsules,
-                            origin);
+  return append_capsules_of(CellImages(), nullptr, capsules, origin);
+}
+
+Status ParticleSpheres::append_boundary_capsules_to(std::vector<Capsule>& capsules,
+                                                    const Vec3d& origin) const {
+  const FloatEnvironment environment;
+  const std::size_t first = capsules.size();
+  const CellImages shown(frame_->cell.value_or(ParticleCell()), images_.counts());
+  append_boundary_bonds(bonded(shown, &boundary_, origin), bonds_, bond_look_, capsules);
+  if (!arrows_.empty()) {
+    boundary_.each([&](std::size_t i, const ImagePlace& place) {
+      add_arrow(i, (frame_->positions[i] - origin) + shown.shift(place), capsules);
+    });
+  }
+  return check_capsules(capsules, first);
+}
+
+BondedParticles ParticleSpheres::bonded(const CellImages& images, const BoundaryImages* boundary,
+                                        const Vec3d& origin) const {
+  return {frame_->positions, radii_, materials_, frame_->cell, images, origin, boundary};
+}
+
+void ParticleSpheres::add_arrow(std::size_t particle, const Vec3d& begin,
+                                std::vector<Capsule>& capsules) const {
+  const Vec3d& way = arrows_[particle];
+  if (way == Vec3d{} || std::isnan(way.x + way.y + way.z)) return;  // none, or missing
+  capsules.push_back({vec_cast<float>(begin), vec_cast<float>(begin + way), bond_look_.radius,
+                      bond_look_.material.value_or(materials_[particle])});
 }
 
 void ParticleSpheres::append_lines_to(std::vector<Capsule>& capsules, const Vec3d& origin) const {
   if (edge_look_) {
-    append_cell_edges({frame_->positions, radii_, materials_, frame_->cell, images_, origin},
-                      *edge_look_, capsules);
+    append_cell_edges(bonded(images_, &boundary_, origin), *edge_look_, capsules);
   }
   append_axes_to(capsules, origin);
 }
@@ -137,30 +202,21 @@ void ParticleSpheres::append_axes_to(std::vector<Capsule>& capsules, const Vec3d
   }
 }
 
-Status ParticleSpheres::append_capsules_of(const CellImages& images, std::vector<Capsule>& capsules,
+Status ParticleSpheres::append_capsules_of(const CellImages& images, const BoundaryImages* boundary,
+                                           std::vector<Capsule>& capsules,
                                            const Vec3d& origin) const {
   const FloatEnvironment environment;
   if (bonds_.empty() && arrows_.empty()) return {};
   const std::size_t first = capsules.size();
   capsules.reserve(first + (2 * bonds_.size() + arrows_.size()) * images.size());
   const CellImages shown(frame_->cell.value_or(ParticleCell()), images.counts());
-  append_bonds({frame_->positions, radii_, materials_, frame_->cell, shown, origin}, bonds_,
-               bond_look_, capsules);
+  append_bonds(bonded(shown, boundary, origin), bonds_, bond_look_, capsules);
   for (std::size_t image = 0; image < images.size() && !arrows_.empty(); ++image) {
     const Vec3d shift = images.shift(image);
-    for (std::size_t i = 0; i < arrows_.size(); ++i) {
-      const Vec3d begin = (frame_->positions[i] - origin) + shift, &way = arrows_[i];
-      if (way == Vec3d{} || std::isnan(way.x + way.y + way.z)) continue;  // none, or missing
-      capsules.push_back({vec_cast<float>(begin), vec_cast<float>(begin + way), bond_look_.radius,
-                          bond_look_.material.value_or(materials_[i])});
-    }
+    for (std::size_t i = 0; i < arrows_.size(); ++i)
+      add_arrow(i, (frame_->positions[i] - origin) + shift, capsules);
   }
-  const auto wrong =
-      std::find_if(capsules.begin() + static_cast<std::ptrdiff_t>(first), capsules.end(),
-                   [](const Capsule& one) { return find_problem(one).has_value(); });
-  if (wrong == capsules.end()) return {};
-  capsules.resize(first);
-  return Diagnostic::about("file", "a bond or an arrow ends too far from the origin for a capsule");
+  return check_capsules(capsules, first);
 }
 
 }  // namespace boule

@@ -37,6 +37,8 @@ Status check_cell(const ParticleFrame& frame, const ParticleStyle& style,
   const bool replicates = count_images(style.replicate) > 1;
   if (!frame.cell) {
     if (style.wrap) return Diagnostic::about("wrap", "the file tells no cell to wrap into");
+    if (style.unwrap) return Diagnostic::about("unwrap", "the file tells no cell");
+    if (style.boundary) return Diagnostic::about("boundary", "the file tells no cell with faces");
     if (style.cell_edges) return Diagnostic::about("cell_edges", "the file tells no cell to draw");
     if (replicates) return Diagnostic::about("replicate", "the file tells no cell to replicate");
     return {};
@@ -54,8 +56,11 @@ Status check_cell(const ParticleFrame& frame, const ParticleStyle& style,
                       ", but is replicated along it");
     }
   }
-  if (style.wrap && cell.periodic == std::array<bool, 3>{}) {
-    notes.emplace_back("the file's cell is not periodic, so nothing is wrapped into it");
+  if (cell.periodic == std::array<bool, 3>{}) {
+    const std::string why = "the file's cell is not periodic, so ";
+    if (style.wrap) notes.push_back(why + "nothing is wrapped into it");
+    if (style.unwrap) notes.push_back(why + "molecules stay as they are");
+    if (style.boundary) notes.push_back(why + "nothing is repeated on its faces");
   }
   return {};
 }
@@ -102,26 +107,30 @@ std::size_t place_of(std::size_t shown, const std::vector<std::uint8_t>& selecte
   return selected.size();
 }
 
+void extend(std::array<Vec3d, 2>& box, const Vec3d& point) {
+  for (double Vec3d::*const axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
+    box[0].*axis = std::min(box[0].*axis, point.*axis);
+    box[1].*axis = std::max(box[1].*axis, point.*axis);
+  }
+}
+
 std::array<Vec3d, 2> bounds_of(const std::vector<Vec3d>& positions,
                                const ParallelFor& parallel_for) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   const std::array<Vec3d, 2> empty{Vec3d{inf, inf, inf}, Vec3d{-inf, -inf, -inf}};
-  const auto extend = [](std::array<Vec3d, 2>& box, const Vec3d& low, const Vec3d& high) {
-    for (double Vec3d::*const axis : {&Vec3d::x, &Vec3d::y, &Vec3d::z}) {
-      box[0].*axis = std::min(box[0].*axis, low.*axis);
-      box[1].*axis = std::max(box[1].*axis, high.*axis);
-    }
-  };
   std::vector<std::array<Vec3d, 2>> boxes(chunks_of(positions.size()), empty);
   in_chunks(parallel_for, positions.size(),
             [&](std::size_t chunk, std::size_t begin, std::size_t end) {
               std::array<Vec3d, 2> box = empty;
-              for (std::size_t i = begin; i < end; ++i) extend(box, positions[i], positions[i]);
+              for (std::size_t i = begin; i < end; ++i) extend(box, positions[i]);
               boxes[chunk] = box;
             });
   if (boxes.empty()) return {};
   std::array<Vec3d, 2> all = empty;
-  for (const auto& [low, high] : boxes) extend(all, low, high);
+  for (const auto& box : boxes) {
+    extend(all, box[0]);
+    extend(all, box[1]);
+  }
   return all;
 }
 
@@ -223,12 +232,13 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   made.keep_own(std::move(materials.value().own));
   made.own_.given = style.colors;
   made.own_.nan_color = style.nan_color;
-  if (auto done = made.place(style, parallel_for); !done) return done.error();
+  if (auto done = made.wrap(style, parallel_for); !done) return done.error();
   made.radii_ = std::move(radii.value().radii);
   made.smallest_radius_ = radii.value().smallest;
   made.materials_ = std::move(materials.value().materials);
   if (auto done = made.add_bonds(style, plan.value(), source.value(), name_of, parallel_for); !done)
     return done.error();
+  if (auto done = made.find_bounds(style, parallel_for); !done) return done.error();
   if (auto done = made.add_arrows(style); !done) return done.error();
   made.colors_ = std::move(materials.value().colors);
   made.radius_source_ = std::move(source.value().text);
@@ -250,16 +260,27 @@ bool ParticleSpheres::shares_images(std::uint64_t fewest_spheres) const {
   return are_shared(images_.size(), frame_->size(), fewest_spheres);
 }
 
-/// Wraps the positions into the cell, and finds the images and the bounds of all.
-Status ParticleSpheres::place(const ParticleStyle& style, const ParallelFor& parallel_for) {
-  std::vector<Vec3d>& positions = frame_->positions;
-  if (style.wrap) {
-    if (auto done = wrap_into(*frame_->cell, positions, parallel_for); !done) return done;
-  }
+/// Wraps the positions into the cell, and finds its images.
+Status ParticleSpheres::wrap(const ParticleStyle& style, const ParallelFor& parallel_for) {
+  if (count_images(style.replicate) > 1) images_ = CellImages(*frame_->cell, style.replicate);
+  if (!style.wrap) return {};
+  return wrap_into(*frame_->cell, frame_->positions, parallel_for);
+}
+
+/// Finds what is repeated on faces, and the bounds of all images.
+Status ParticleSpheres::find_bounds(const ParticleStyle& style, const ParallelFor& parallel_for) {
+  const std::vector<Vec3d>& positions = frame_->positions;
   bounds_ = bounds_of(positions, parallel_for);
-  if (count_images(style.replicate) <= 1) return {};
-  images_ = CellImages(*frame_->cell, style.replicate);
-  if (!positions.empty()) bounds_ = bounds_of_images(bounds_, *frame_->cell, style.replicate);
+  if (images_.size() > 1 && !positions.empty())
+    bounds_ = bounds_of_images(bounds_, *frame_->cell, style.replicate);
+  if (!style.boundary) return {};
+  auto boundary = BoundaryImages::find(*frame_->cell, style.replicate, positions, parallel_for);
+  if (!boundary) return boundary.error();
+  boundary_ = std::move(boundary).value();
+  const CellImages places(*frame_->cell, style.replicate);
+  boundary_.each([&](std::size_t particle, const ImagePlace& place) {
+    extend(bounds_, positions[particle] + places.shift(place));
+  });
   return {};
 }
 
@@ -274,7 +295,29 @@ void ParticleSpheres::let_go(std::size_t begin, std::size_t end) {
 
 Status ParticleSpheres::append_to(std::vector<Sphere>& spheres, const Vec3d& origin,
                                   const ParallelFor& parallel_for) && {
-  return append_images_to(spheres, images_.size(), origin, parallel_for);
+  std::vector<Sphere> on_faces;
+  if (auto done = append_boundary_to(on_faces, origin); !done) return done;
+  if (auto done = append_images_to(spheres, images_.size(), origin, parallel_for); !done)
+    return done;
+  spheres.insert(spheres.end(), on_faces.begin(), on_faces.end());
+  return {};
+}
+
+Status ParticleSpheres::append_boundary_to(std::vector<Sphere>& spheres,
+                                           const Vec3d& origin) const {
+  const FloatEnvironment environment;
+  const std::size_t first = spheres.size();
+  const CellImages places(frame_->cell.value_or(ParticleCell()), images_.counts());
+  boundary_.each([&](std::size_t i, const ImagePlace& place) {
+    const Vec3d center = (frame_->positions[i] - origin) + places.shift(place);
+    spheres.push_back({vec_cast<float>(center), radii_[i], materials_[i]});
+  });
+  if (std::all_of(spheres.begin() + static_cast<std::ptrdiff_t>(first), spheres.end(),
+                  [](const Sphere& one) { return is_valid(one); })) {
+    return {};
+  }
+  spheres.resize(first);
+  return Diagnostic::about("boundary", "an image is too far from the origin for a sphere");
 }
 
 Status ParticleSpheres::append_first_image_to(std::vector<Sphere>& spheres, const Vec3d& origin,

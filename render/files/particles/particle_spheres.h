@@ -16,6 +16,7 @@
 #include "render/files/particle_file/frame/particle_frame.h"
 #include "render/files/particles/bonds/bond_capsules.h"
 #include "render/files/particles/bonds/particle_bonds.h"
+#include "render/files/particles/boundary_images.h"
 #include "render/files/particles/cell_images.h"
 #include "render/files/particles/colors/color_meaning.h"
 #include "render/files/particles/particle_choices.h"
@@ -30,15 +31,17 @@ class ParticleSpheres {
  public:
   /// Errors have a message and, as their key, the key of [[particles]] that is at fault ("file",
   /// "select", "radius", "scale", "color", "color.by", "color.range", "material", "wrap",
-  /// "replicate"): an unknown column (with the one that was meant, if any), a radius that is not
-  /// above 0 or not finite with its particle (from 1, in the order of the frame), no cell to wrap
-  /// into, more spheres than there is memory for or than ids allow. Throws std::bad_alloc. The
-  /// same for any threads.
+  /// "unwrap", "boundary", "replicate"): an unknown column (with the one that was meant, if any), a
+  /// radius that is not above 0 or not finite with its particle (from 1, in the order of the
+  /// frame), no cell to wrap into, more spheres than there is memory for or than ids allow. Throws
+  /// std::bad_alloc. The same for any threads.
   static Result<ParticleSpheres> make(ParticleFrame read, const ParticleStyle& style,
                                       const ParallelFor& parallel_for = serial_for);
 
   /// Spheres, images included.
-  [[nodiscard]] std::size_t size() const { return frame_->size() * images_.size(); }
+  [[nodiscard]] std::size_t size() const {
+    return frame_->size() * images_.size() + boundary_.size();
+  }
 
   /// The smallest box of the spheres' centres; two equal corners where there are none.
   [[nodiscard]] const std::array<Vec3d, 2>& center_bounds() const { return bounds_; }
@@ -57,9 +60,10 @@ class ParticleSpheres {
 
   /// Appends the spheres: `origin` is subtracted in double, then all is rounded to float, once.
   /// The particles come in the order of the file, all of one image before those of the next
-  /// (CellImages). An error, and no sphere more, if a centre is too large for a float or there is
-  /// no memory. It uses the particles up: their memory goes back to the system as the spheres
-  /// appear, so that both never stand there whole.
+  /// (CellImages), and last what is repeated on faces (BoundaryImages). An error, and no sphere
+  /// more, if a centre is too large for a float or there is no memory. It uses the particles up:
+  /// their memory goes back to the system as the spheres appear, so that both never stand there
+  /// whole.
   Status append_to(std::vector<Sphere>& spheres, const Vec3d& origin,
                    const ParallelFor& parallel_for = serial_for) &&;
 
@@ -68,6 +72,9 @@ class ParticleSpheres {
   Status append_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
   /// The same of the first image only; pieces of bonds meet where images do.
   Status append_first_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
+  /// What is repeated on faces: spheres, and bonds and arrows.
+  Status append_boundary_to(std::vector<Sphere>& spheres, const Vec3d& origin) const;
+  Status append_boundary_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
   /// The edges of the cell and the axes only, which all images have together.
   void append_lines_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
   /// Bonds of the particles, those of images not among them.
@@ -89,11 +96,16 @@ class ParticleSpheres {
   Status add_bonds(const ParticleStyle& style, const BondPlan& plan, RadiusSource& source,
                    const ParticleNamer& name_of, const ParallelFor& parallel_for);
   Status add_arrows(const ParticleStyle& style);
-  Status append_capsules_of(const CellImages& images, std::vector<Capsule>& capsules,
-                            const Vec3d& origin) const;
+  [[nodiscard]] BondedParticles bonded(const CellImages& images, const BoundaryImages* boundary,
+                                       const Vec3d& origin) const;
+  Status append_capsules_of(const CellImages& images, const BoundaryImages* boundary,
+                            std::vector<Capsule>& capsules, const Vec3d& origin) const;
+  void add_arrow(std::size_t particle, const Vec3d& begin, std::vector<Capsule>& capsules) const;
   void append_axes_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
   void keep_own(ParticleChoices colors);
-  Status place(const ParticleStyle& style, const ParallelFor& parallel_for);
+  Status wrap(const ParticleStyle& style, const ParallelFor& parallel_for);
+  Status unwrap(const BondPlan& plan, const ParallelFor& parallel_for);
+  Status find_bounds(const ParticleStyle& style, const ParallelFor& parallel_for);
   Status append_images_to(std::vector<Sphere>& spheres, std::size_t images, const Vec3d& origin,
                           const ParallelFor& parallel_for);
   std::size_t make_spheres(const Range& range, const Vec3d& origin, Sphere* spheres,
@@ -105,6 +117,7 @@ class ParticleSpheres {
   ParticleValues<float> radii_;
   ParticleValues<MaterialRef> materials_;
   CellImages images_;
+  BoundaryImages boundary_;
   std::vector<Bond> bonds_;
   BondLook bond_look_;
   std::optional<BondLook> edge_look_;               ///< if the edges of the cell are drawn

@@ -116,7 +116,9 @@ struct ParticleStyle {
   std::optional<ArrowColumns> arrows{};
   /// Which particles: "type == 1 && x > 0", 'species == "Fe"' (SelectExpression); empty: all.
   std::string select{};
-  bool wrap = false;                      ///< into the cell, along its periodic directions
+  bool wrap = false;      ///< into the cell, along its periodic directions
+  bool unwrap = false;    ///< what is bonded through a face is moved together
+  bool boundary = false;  ///< with the images of particles on faces that are on opposite faces
   std::array<int, 3> replicate{1, 1, 1};  ///< periodic images along a, b, c, >= 1 each
 };
 

@@ -443,6 +443,8 @@ class Particles:
     arrow_scale: float | None
     select: str | None
     wrap: bool | None
+    unwrap: bool | None
+    boundary: bool | None
     replicate: Sequence[int] | None
     material: _Material | str | None
     def __init__(
@@ -470,6 +472,8 @@ class Particles:
         arrow_scale: float | None = ...,
         select: str | None = ...,
         wrap: bool | None = ...,
+        unwrap: bool | None = ...,
+        boundary: bool | None = ...,
         replicate: Sequence[int] | None = ...,
         material: _Material | str | None = ...,
     ) -> None: ...
@@ -573,6 +577,8 @@ class _Objects:
         nan_color: _Color | None = ...,
         select: str | None = ...,
         wrap: bool | None = ...,
+        unwrap: bool | None = ...,
+        boundary: bool | None = ...,
         replicate: Sequence[int] | None = ...,
         material: _Material | str | None = ...,
     ) -> Particles: ...
@@ -857,6 +863,8 @@ def load(
     arrow_scale: float | None = ...,
     select: str | None = ...,
     wrap: bool = ...,
+    unwrap: bool = ...,
+    boundary: bool = ...,
     replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
@@ -895,6 +903,8 @@ def frames(
     arrow_scale: float | None = ...,
     select: str | None = ...,
     wrap: bool = ...,
+    unwrap: bool = ...,
+    boundary: bool = ...,
     replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
@@ -932,6 +942,8 @@ def from_particles(
     arrow_scale: float | None = ...,
     select: str | None = ...,
     wrap: bool = ...,
+    unwrap: bool = ...,
+    boundary: bool = ...,
     replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
@@ -964,6 +976,8 @@ def from_ase(
     arrow_scale: float | None = ...,
     select: str | None = ...,
     wrap: bool = ...,
+    unwrap: bool = ...,
+    boundary: bool = ...,
     replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
@@ -996,6 +1010,8 @@ def series(
     arrow_scale: float | None = ...,
     select: str | None = ...,
     wrap: bool = ...,
+    unwrap: bool = ...,
+    boundary: bool = ...,
     replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,
@@ -1062,6 +1078,8 @@ def render(
     arrow_scale: float | None = ...,
     select: str | None = ...,
     wrap: bool = ...,
+    unwrap: bool = ...,
+    boundary: bool = ...,
     replicate: str | Sequence[int] | None = ...,
     view: str | _Vector | None = ...,
     up: str | _Vector | None = ...,

@@ -30,7 +30,8 @@ _MORE = {
     "particles": (
         "file", "frame", "format", "columns", "water", "topology", "radius", "radii", "scale",
         "color", "colors", "nan_color", "style", "bonds", "bond_radius", "bond_color", "cell_edges",
-        "axes", "arrows", "arrow_scale", "select", "wrap", "replicate", "material",
+        "axes", "arrows", "arrow_scale", "select", "wrap", "unwrap", "boundary",
+        "replicate", "material",
     ),
 }  # fmt: skip
 # Arrays that take the place of a file: how many numbers each element has, and what makes data of

@@ -11,8 +11,6 @@
 namespace boule {
 namespace {
 
-using ImagePlace = std::array<std::int64_t, 3>;
-
 /// One end of a bond, in the coordinates of the spheres.
 struct BondEnd {
   Vec3d center;
@@ -40,18 +38,29 @@ class BondDrawer {
       other[k] = place[k] + bond.image[k];
       before[k] = place[k] - bond.image[k];
     }
-    const bool ends_inside = is_inside(other);
     add_pieces(end(bond.a, place), end(bond.b, other), 0,
-               ends_inside ? 1 : way_out(bond.a, place, bond.b, other));
-    if (is_inside(before)) return;
+               is_shown(bond.b, other) ? 1 : way_out(bond.a, place, bond.b, other));
+    if (is_shown(bond.a, before)) return;
     add_pieces(end(bond.a, before), end(bond.b, place), 1 - way_out(bond.b, place, bond.a, before),
                1);
   }
 
+  /// The bond as often as it begins on a face.
+  void draw_on_faces(const Bond& bond) {
+    particles_.boundary->each_of(bond.a, [&](const ImagePlace& place) {
+      ImagePlace other{};
+      for (std::size_t k = 0; k < 3; ++k) other[k] = place[k] + bond.image[k];
+      if (is_shown(bond.b, other)) add_pieces(end(bond.a, place), end(bond.b, other), 0, 1);
+    });
+  }
+
  private:
-  [[nodiscard]] bool is_inside(const ImagePlace& place) const {
+  [[nodiscard]] bool is_shown(std::uint32_t particle, const ImagePlace& place) const {
+    const std::array<int, 3>& counts = particles_.images.counts();
     for (std::size_t k = 0; k < 3; ++k) {
-      if (place[k] < 0 || place[k] >= particles_.images.counts()[k]) return false;
+      if (place[k] >= 0 && place[k] < counts[k]) continue;
+      if (particles_.boundary == nullptr) return false;
+      if (!particles_.boundary->repeats(particle, k, place[k])) return false;
     }
     return true;
   }
@@ -114,6 +123,13 @@ void append_bonds(const BondedParticles& particles, const std::vector<Bond>& bon
     const ImagePlace place = particles.images.place(image);
     for (const Bond& bond : bonds) drawer.draw(bond, place);
   }
+}
+
+void append_boundary_bonds(const BondedParticles& particles, const std::vector<Bond>& bonds,
+                           const BondLook& look, std::vector<Capsule>& capsules) {
+  if (particles.boundary == nullptr || particles.boundary->size() == 0) return;
+  BondDrawer drawer(particles, look, capsules);
+  for (const Bond& bond : bonds) drawer.draw_on_faces(bond);
 }
 
 void append_cell_edges(const BondedParticles& particles, const BondLook& look,

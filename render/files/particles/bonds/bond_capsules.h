@@ -7,6 +7,7 @@
 #include "core/scene/primitive.h"
 #include "render/files/particle_file/frame/particle_frame.h"
 #include "render/files/particles/bonds/bond_finder.h"
+#include "render/files/particles/boundary_images.h"
 #include "render/files/particles/cell_images.h"
 #include "render/files/particles/particle_values.h"
 
@@ -19,7 +20,8 @@ struct BondedParticles {
   const ParticleValues<MaterialRef>& materials;
   const std::optional<ParticleCell>& cell;
   const CellImages& images;
-  Vec3d origin{};  ///< is subtracted in double, as from spheres
+  Vec3d origin{};                            ///< is subtracted in double, as from spheres
+  const BoundaryImages* boundary = nullptr;  ///< null: nothing is repeated on faces
 };
 
 /// How bonds look.
@@ -31,9 +33,14 @@ struct BondLook {
 /// Appends the capsules of bonds, of one image after the other: each bond is two halves, which meet
 /// in the middle of what is seen between both spheres, or one capsule if both halves are of one
 /// material. Their ends are the centres of the spheres, to the bit. A bond that leaves all images
-/// of the cell is two pieces, one at each end, which end at the cell's faces.
+/// of the cell is two pieces, one at each end, which end at the cell's faces; but it is whole where
+/// both ends are shown.
 void append_bonds(const BondedParticles& particles, const std::vector<Bond>& bonds,
                   const BondLook& look, std::vector<Capsule>& capsules);
+
+/// Appends the bonds that begin at what is repeated on faces and end at what is shown.
+void append_boundary_bonds(const BondedParticles& particles, const std::vector<Bond>& bonds,
+                           const BondLook& look, std::vector<Capsule>& capsules);
 
 /// Appends the edges of the box that all images of the cell fill. Edges of length 0 are left out.
 void append_cell_edges(const BondedParticles& particles, const BondLook& look,

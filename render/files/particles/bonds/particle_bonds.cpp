@@ -107,6 +107,11 @@ class BondMaker {
       frame_.notes.emplace_back("the bonds are those of the file");
       return listed();
     }
+    if (!has_elements() && plan_.unwraps && frame_.size() > 0) {
+      return Diagnostic::about("unwrap",
+                               "the file tells neither bonds nor elements: \"bonds\" may be a "
+                               "number, below which distances are bonds");
+    }
     if (!has_elements()) {
       frame_.notes.emplace_back("without elements, and without bonds in the file, none are drawn");
       return std::vector<Bond>();
@@ -181,6 +186,7 @@ class BondMaker {
 }  // namespace
 
 std::uint64_t most_bonded_of(const ParticleStyle& style) {
+  if (style.unwrap) return std::numeric_limits<std::uint64_t>::max();
   const bool is_open = std::holds_alternative<std::monostate>(style.bonds);
   if (is_open && !style.shape) return most_of_bonded_start;
   const bool may_list =
@@ -192,7 +198,10 @@ std::uint64_t most_bonded_of(const ParticleStyle& style) {
 Result<BondPlan> plan_bonds(const ParticleFrame& frame, const ParticleStyle& style,
                             ParticleChoices& own) {
   if (frame.size() > 0) own.starts_bonded = is_small_with_bonds(frame);
-  BondPlan plan{.bonds = style.bonds, .has_listed = !frame.bonds.empty()};
+  BondPlan plan{.bonds = style.bonds,
+                .has_listed = !frame.bonds.empty(),
+                .unwraps = style.unwrap,
+                .wraps = style.wrap};
   const bool is_open = std::holds_alternative<std::monostate>(style.bonds);
   const bool has_own_radii =
       !std::holds_alternative<std::monostate>(style.radius) || !style.radii.empty();

@@ -18,8 +18,9 @@ namespace boule {
 /// What is drawn of a frame, and by which rule its bonds are found.
 struct BondPlan {
   ParticleShape shape = ParticleShape::space_filling;
-  BondChoice bonds = BondRule::none;  ///< never nothing
-  bool has_listed = false;            ///< the file lists bonds of particles that may be hidden
+  BondChoice bonds = BondRule::none;    ///< never nothing
+  bool has_listed = false;              ///< the file lists bonds of particles that may be hidden
+  bool unwraps = false, wraps = false;  ///< as ParticleStyle
 };
 
 /// ParticleFileOptions::most_bonded for a style.

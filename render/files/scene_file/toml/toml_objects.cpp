@@ -171,6 +171,11 @@ void TomlObjects::add_images(TomlTable& table, ParticleSpheres particles) {
   Group group{"images of " + table.path(), {}, {}, {}, {}};
   const CellImages images = particles.images();
   particles.append_lines_to(scene_.capsules, table.origin());
+  for (const Status& done :
+       {particles.append_boundary_to(scene_.spheres, table.origin()),
+        particles.append_boundary_capsules_to(scene_.capsules, table.origin())}) {
+    if (!done) return table.report("file", done.error().message);
+  }
   if (auto done = particles.append_first_capsules_to(group.capsules, table.origin()); !done) {
     return table.report("file", done.error().message);
   }

@@ -150,6 +150,8 @@ ParticleStyle read_particle_style(TomlTable& table) {
   read_bond_keys(table, style);
   table.read("select", style.select);
   table.read("wrap", style.wrap);
+  table.read("unwrap", style.unwrap);
+  table.read("boundary", style.boundary);
   table.read("replicate", style.replicate);
   for (const int images : style.replicate) {
     if (images >= 1) continue;

@@ -20,6 +20,7 @@ TEST_F(Particles, PrintedSceneShowsThem) {
       {"--quick"},
       {"--floor", "--view", "1,2,-0.5"},
       {"--colors", "O=crimson,h=#336699", "--radii", "O=1.5", "--wrap", "--replicate", "2x1x2"},
+      {"--unwrap", "--boundary", "--bonds", "distance"},
       {"--color", "speed", "--map", "Navy,white", "--nan-color", "gold"},
       {"--color", "teal", "--colors", "O=red"},
       {"--look", "dark", "--color", "speed", "--map", "turbo", "--range", "0,2"},

@@ -37,6 +37,8 @@ TEST(ParticleLook, HasExactlyTheOptions) {
   look.colors = {{"O", "crimson"}, {"a\"b", "#336699"}};
   look.nan_color = "white";
   look.wrap = true;
+  look.unwrap = true;
+  look.boundary = true;
   look.replicate = {{2, 1, 3}};
   EXPECT_THAT(scene_of(look), HasSubstr("file = \"run.xyz\"\n"
                                         "format = \"dump\"\n"
@@ -49,6 +51,8 @@ TEST(ParticleLook, HasExactlyTheOptions) {
                                         "scale = 0.1\n"
                                         "select = \"name == \\\"CA\\\"\"\n"
                                         "wrap = true\n"
+                                        "unwrap = true\n"
+                                        "boundary = true\n"
                                         "replicate = [2, 1, 3]\n"
                                         "material = \"particles\"\n"
                                         "colors = { \"O\" = \"crimson\", \"a\\\"b\" = "

@@ -306,6 +306,8 @@ TEST_F(TomlParticlesTest, WrongKeysAreRefused) {
   expect_refused("select = 3\n", "select", "a string");
   expect_refused("wrap = \"yes\"\n", "wrap", "true or false");
   expect_refused("wrap = true\n", "wrap", "cell", "run.xyz");
+  for (const std::string key : {"unwrap", "boundary"})
+    expect_refused(key + " = true\n", key, "cell", "run.xyz");
   expect_refused("replicate = [2, 2]\n", "replicate", "3 integers");
   expect_refused("replicate = [1, 0, 1]\n", "replicate", "must be 1 or above, is 0");
   expect_refused("replicate = [2, 2, 2]\n", "replicate", "cell", "run.xyz");
