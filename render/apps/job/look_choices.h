@@ -75,8 +75,8 @@ inline auto sphere_and_color_choices() {
   constexpr const char* above_0 = "a number above 0";
   return std::tuple{
       choice<L>(spheres, "radius", &L::radius,
-                TextRule{parse_radius, "a number above 0, vdw, covalent or a column"}, "R",
-                "Radii: a number, vdw, covalent or a column (the file's, else vdw)"),
+                TextRule{parse_radius, "a number above 0, vdw, covalent, ionic or a column"}, "R",
+                "Radii: a number, vdw, covalent, ionic or a column (the file's, else vdw)"),
       choice<L>(spheres, "radii", &L::radii,
                 TextRule{parse_kind_radii, "KIND=RADIUS,... with radii above 0, each kind once"},
                 "LIST", "Radii of species, such as Na=1.02,Cl=1.81 (those of --radius)"),

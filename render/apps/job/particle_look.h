@@ -51,7 +51,7 @@ struct LookOptions {
   std::vector<KindText> colors{};                 ///< of kinds
   std::string nan_color{};                        ///< of missing numbers; empty: grey
   std::optional<std::array<double, 2>> range{};   ///< of the map; least < largest
-  std::string radius{};                           ///< a number, "vdw", "covalent" or a column
+  std::string radius{};                           ///< a number, a RadiusTable or a column
   std::vector<KindText> radii{};                  ///< of species
   std::optional<ParticleShape> style{};           ///< balls, sticks or both
   std::string bonds{};                            ///< a name of BondRule, or a number

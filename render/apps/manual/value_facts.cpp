@@ -80,7 +80,7 @@ Words known_words(const std::string& name) {
   if (name == "input-format") return format_names();
   if (name == "isa") return isa_names();
   if (name == "map") return parts_of(list_color_maps(), ", ");
-  if (name == "radius") return {"vdw", "covalent"};
+  if (name == "radius") return {"vdw", "covalent", "ionic"};
   if (name == "view") return {"principal", "upright", "iso", "x", "-x", "y", "-y", "z", "-z"};
   if (name == "up") return {"x", "-x", "y", "-y", "z", "-z"};
   return {};

@@ -11,6 +11,7 @@
 #include "core/scene/number_text.h"
 #include "render/files/file/nearest_name.h"
 #include "render/files/particles/elements.h"
+#include "render/files/particles/ionic_radii.h"
 #include "render/files/particles/particle_columns.h"
 #include "render/files/particles/typical_distance.h"
 
@@ -18,13 +19,16 @@ namespace boule {
 namespace {
 
 const char* table_text(RadiusTable table) {
-  return table == RadiusTable::vdw ? "van der Waals radii" : "covalent radii";
+  return table == RadiusTable::vdw        ? "van der Waals radii"
+         : table == RadiusTable::covalent ? "covalent radii"
+                                          : "ionic radii";
 }
 
 /// The radius of a species in angstrom; 0 if the table has none.
 double table_radius(RadiusTable table, const std::string& species) {
   const Element* const element = find_element(species);
   if (element == nullptr) return 0;
+  if (table == RadiusTable::ionic) return ionic_radius(element->symbol);
   return table == RadiusTable::vdw ? element->vdw : element->covalent;
 }
 

@@ -15,11 +15,11 @@
 
 namespace boule {
 
-/// The tables of radii by element: van der Waals (S. Alvarez, Dalton Trans. 42, 8617, 2013) and
-/// covalent (B. Cordero et al., Dalton Trans., 2832, 2008).
-enum class RadiusTable { vdw, covalent };
+/// The tables of radii by element: van der Waals (S. Alvarez, Dalton Trans. 42, 8617, 2013),
+/// covalent (B. Cordero et al., Dalton Trans., 2832, 2008) and ionic (IonicRadius).
+enum class RadiusTable { vdw, covalent, ionic };
 template <>
-inline constexpr std::array<std::string_view, 2> names<RadiusTable>{"vdw", "covalent"};
+inline constexpr std::array<std::string_view, 3> names<RadiusTable>{"vdw", "covalent", "ionic"};
 
 /// The column that holds every particle's radius.
 struct RadiusColumn {

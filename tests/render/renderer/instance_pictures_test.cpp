@@ -255,6 +255,19 @@ TEST(Instances, ReplicatedBondsMatchTheExpandedScene) {
   EXPECT_EQ(differing_pixels(render(shared), render(flat)), 0);
 }
 
+/// What is repeated on faces stands beside the instances.
+TEST(Instances, BoundaryParticlesMatchTheExpandedScene) {
+  const std::string keys = "boundary = true\n";
+  const Scene shared = replicated_scene(keys, 0), listed = replicated_scene(keys, 180'001);
+  EXPECT_TRUE(groups_to_share(shared));
+  EXPECT_GT(shared.spheres.size(), 100U);
+  ASSERT_EQ(shared.spheres.size() + 180'000, listed.spheres.size());
+  for (std::size_t i = 0; i < shared.spheres.size(); ++i) {
+    EXPECT_EQ(shared.spheres[i].center, listed.spheres[180'000 + i].center) << i;
+    EXPECT_EQ(shared.spheres[i].radius, listed.spheres[180'000 + i].radius) << i;
+  }
+}
+
 /// What is shared is hashed as it is: everything that a picture depends on counts.
 TEST(Instances, HashesCoverSharedGroupsAndTheirPlaces) {
   const Scene scene = shared_scene();

@@ -30,7 +30,9 @@ RadiusRule read_radius(TomlTable& table) {
   if (!table.has_text("radius")) return read_positive(table, "radius", 1);
   std::string text;
   table.read("radius", text);
-  if (text.empty()) table.report("radius", "expected a number, a column, \"vdw\" or \"covalent\"");
+  if (text.empty()) {
+    table.report("radius", "expected a number, a column, \"vdw\", \"covalent\" or \"ionic\"");
+  }
   const auto& tables = names<RadiusTable>;
   const auto found = std::find(tables.begin(), tables.end(), ascii_lower(text));
   if (found == tables.end()) return RadiusColumn{std::move(text)};

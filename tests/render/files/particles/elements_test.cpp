@@ -5,6 +5,8 @@
 #include <set>
 #include <string>
 
+#include "render/files/particles/ionic_radii.h"
+
 namespace boule {
 namespace {
 
@@ -36,6 +38,25 @@ TEST(Elements, AreInTheOrderOfTheirNumbers) {
   std::set<std::string_view> symbols;
   for (const Element& element : elements) symbols.insert(element.symbol);
   EXPECT_EQ(symbols.size(), elements.size());
+}
+
+// Shannon's table 1.
+TEST(Elements, IonsHaveTheirRadii) {
+  for (const IonicRadius& known :
+       {IonicRadius{"O", -2, 1.40}, IonicRadius{"Cl", -1, 1.81}, IonicRadius{"Na", 1, 1.02},
+        IonicRadius{"Sr", 2, 1.18}, IonicRadius{"Ti", 4, 0.605}, IonicRadius{"La", 3, 1.032}}) {
+    EXPECT_EQ(ionic_radius(known.symbol), known.radius) << known.symbol;
+  }
+  for (const char* none : {"H", "He", "Ra", "Es", "X"}) EXPECT_EQ(ionic_radius(none), 0) << none;
+  const Element* last = nullptr;
+  for (const IonicRadius& ion : all_ionic_radii()) {
+    const Element* const element = find_element(ion.symbol);
+    ASSERT_NE(element, nullptr) << ion.symbol;
+    EXPECT_TRUE(last == nullptr || last < element) << ion.symbol;
+    EXPECT_NE(ion.charge, 0) << ion.symbol;
+    if (ion.charge < 0) EXPECT_GT(ion.radius, element->covalent) << ion.symbol;
+    last = element;
+  }
 }
 
 // Alvarez' figure 10 and Cordero's table 2, and Jmol's list.
