@@ -122,13 +122,18 @@ TEST_F(Bridge, FramesBecomeWhatIsTold) {
 }
 
 TEST_F(Bridge, UnwantedColumnsAreNamedOnly) {
-  read_by(head() + "read line\nprintf 'particles 1\\npositions\\nnumber q\\nnumber w\\n\\n" +
+  read_by(head() +
+          "read line\n"
+          "printf 'particles 1\\npositions\\nnumber q\\nnumber w\\nunread mass\\nnote %s %s\\n\\n' "
+          "$5 $6\n"
+          "printf '" +
           doubles({1, 2, 3, 4, 5}) + "'\n");
   const auto read = frame({.wanted = std::vector<std::string>{"w"}});
-  ASSERT_TRUE(read.ok());
+  ASSERT_TRUE(read.ok()) << format_diagnostic(read.error());
   EXPECT_EQ(read.value().numbers.at(0).name, "w");
   EXPECT_THAT(read.value().numbers.at(0).values, ElementsAre(5));
-  EXPECT_THAT(read.value().unread, ElementsAre("q"));
+  EXPECT_THAT(read.value().unread, testing::UnorderedElementsAre("q", "mass"));
+  EXPECT_THAT(read.value().notes, testing::Contains("only w"));  // what the reader is asked for
 }
 
 TEST_F(Bridge, TopologyTellsKindsAndMustFit) {
