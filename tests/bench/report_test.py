@@ -45,6 +45,8 @@ REPORT_JSON = {
                for isa, rate in (("scalar", 10), ("avx2", 30)) for i, solver in enumerate(SOLVERS)],
     "cases": [{"case": case, "isa": isa} | errors_of(solver)
               for case in ("far", "near") for isa in ("scalar", "avx2") for solver in SOLVERS[1:]],
+    "capsules": [{"case": case, "isa": "avx2"} | errors_of(solver)
+                 for case in ("thin", "tangent") for solver in ("robust", "textbook_double", "embree_curves")],
     "map": [{"distance": distance, "grazing": grazing} | errors_of(solver)
             for grazing in (2, 4) for distance in (1, 2, 3) for solver in SOLVERS[1:]],
     "epsilons": [{"experiment": experiment, "remedy": remedy, "x": x, "points": 10, "leaks": 0, "false_shadows": 4}
@@ -137,7 +139,7 @@ class Charts(unittest.TestCase):
 class Texts(unittest.TestCase):
     def test_page_shows_everything(self):
         text = page.page(REPORT_JSON, charts)
-        self.assertEqual((text.count("<svg "), text.count("<h2>"), text.count("<table>")), (12, 8, 8))
+        self.assertEqual((text.count("<svg "), text.count("<h2>"), text.count("<table>")), (12, 9, 9))
         for part in ("A &lt;CPU&gt;, 2 cores", "runs at <b>0.92</b> of fast (u1000, scan, scalar)", "Embree 3.13.",
                      'src="data:image/png;base64,iQ=="', '<td class="number">125 | 1.5 | 2</td>'):
             self.assertIn(part, text)
@@ -195,7 +197,7 @@ class Publish(unittest.TestCase):
         self.assertRegex(run.stderr, r"^publish.py: no charts without matplotlib[^\n]*\n$")
         self.assertIn("| u1000 | 50 |", self.readme.read_text())
         text = (self.folder / "report.html").read_text()
-        self.assertEqual((text.count("<svg "), text.count("<table>")), (0, 8))
+        self.assertEqual((text.count("<svg "), text.count("<table>")), (0, 9))
         self.assertEqual(self.publish("--charts", self.folder, python=["-S"]).returncode, 1)
 
     def test_readme_without_marks_stays(self):

@@ -8,6 +8,7 @@
 #include "core/math/color_names.h"
 #include "render/apps/job/look_values.h"
 #include "render/apps/job/option_values.h"
+#include "render/apps/job/overlay/overlay_facts.h"
 #include "render/files/file/unpack.h"
 #include "render/files/particle_file/particle_file.h"
 #include "render/image/image_format.h"
@@ -80,6 +81,7 @@ Words known_words(const std::string& name) {
   if (name == "input-format") return format_names();
   if (name == "isa") return isa_names();
   if (name == "map") return parts_of(list_color_maps(), ", ");
+  if (name == "overlay") return split(list_overlay_parts(), ',');
   if (name == "radius") return {"vdw", "covalent", "ionic"};
   if (name == "view") return {"principal", "upright", "iso", "x", "-x", "y", "-y", "z", "-z"};
   if (name == "up") return {"x", "-x", "y", "-y", "z", "-z"};

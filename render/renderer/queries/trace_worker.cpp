@@ -84,9 +84,9 @@ void put(const HitStream& hits, std::size_t k, const Hit& hit) {
 }  // namespace
 
 void TraceWorker::start(std::size_t count) {
-  if (count != size()) {
-    rays_.resize(count);
+  if (count != size()) {  // without memory the rays, last, keep their size
     ends_.resize(count);
+    rays_.resize(count);
   }
   rounded_.clear();
 }
