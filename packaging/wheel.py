@@ -65,10 +65,12 @@ def bundle(unpacked):
 
 
 def add_licences(unpacked, files):
+    """Those that Debian's packages of the files have."""
     folder = next(unpacked.glob("*.dist-info")) / "licenses"
     folder.mkdir(exist_ok=True)
     for file in files:
-        owner = run("dpkg", "-S", file).split(":")[0]
+        # The package database may know the file below /lib, which is /usr/lib.
+        owner = run("dpkg", "-S", f"*{str(file).removeprefix('/usr')}").split(":")[0]
         shutil.copy2(f"/usr/share/doc/{owner}/copyright", folder / f"{owner}.txt")
 
 
