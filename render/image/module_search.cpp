@@ -104,7 +104,11 @@ Result<const image_module::Table*> open_image_module() {
   constexpr const char* module = "boule_image_io.so";
   const auto entry =
       load_from_module(module, image_module::version_mark, image_module::entry_point);
-  if (!entry) return entry.error();
+  if (!entry) {
+    return Diagnostic::of(entry.error().message +
+                          "; formats other than PNG and PPM need it, and OpenImageIO: Debian's "
+                          "package boule-image-formats has both");
+  }
   const auto* const table = reinterpret_cast<const Table* (*)()>(entry.value())();
   if (table == nullptr || table->version != image_module::version) return of_other_version(module);
   return table;

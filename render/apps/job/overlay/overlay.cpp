@@ -19,9 +19,10 @@ namespace {
 using overlay_module::Table;
 
 Diagnostic no_overlay(const std::string& reason) {
-  return Diagnostic::of(
-      "cannot draw on pictures: " + reason +
-      "; on Debian the package libpangocairo-1.0-0 is needed, and to build Boule libpango1.0-dev");
+  return Diagnostic::of("cannot draw on pictures: " + reason +
+                        "; Debian's package boule-image-formats has it; a build has it if "
+                        "libpango1.0-dev is there, and "
+                        "needs libpangocairo-1.0-0");
 }
 
 Result<const Table*> open_table() {
