@@ -21,7 +21,7 @@ set -euo pipefail
 cd /trial
 fail() { echo "wheel trial: $1"; exit 1; }
 SECONDS=0
-pip install --quiet --no-index --no-deps --break-system-packages --root-user-action=ignore ./*.whl
+pip install --quiet --force-reinstall --no-index --no-deps --break-system-packages --root-user-action=ignore ./*.whl
 boule render first_light.toml -o first_light.png -q
 echo "from pip install to a picture: $SECONDS s"
 python3 -m boule render crambin.xyz -o crambin.png --size 320x240 -q
@@ -42,7 +42,7 @@ for file in $(python3 -c 'import boule, pathlib; p = pathlib.Path(boule.__file__
   ! ldd "$file" | grep -E "not found" || fail "$file lacks a library"
 done
 pip uninstall --quiet --yes --break-system-packages --root-user-action=ignore boule
-! command -v boule || fail "the program stays"
+[[ ! -e /usr/local/bin/boule ]] || fail "the program stays"
 INSIDE
 env -i PATH=/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LC_ALL=C.UTF-8 chroot "$root" bash /trial/inside.sh
 cp "$root/trial/first_light.png" "$(dirname "$wheel")/trial_first_light.png"
