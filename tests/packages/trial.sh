@@ -8,16 +8,9 @@
 set -euo pipefail
 packages=$(realpath "$1") root=$(realpath "$2")
 consumer=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../consumer")
-((EUID == 0)) || { echo "only root can change its root"; exit 77; }
-
-for name in proc dev; do mount --bind "/$name" "$root/$name"; done
-finish() {
-  umount "$root/proc" "$root/dev"
-  rm -rf "$root/trial"
-}
-trap finish EXIT
+# shellcheck source=tests/packages/root.sh
+source "$(dirname "${BASH_SOURCE[0]}")/root.sh"
 cp /etc/resolv.conf "$root/etc/"
-mkdir "$root/trial"
 cp "$packages"/*.deb "$root/trial/"
 cp -r "$consumer" "$root/trial/consumer"
 cp "$(dirname "${BASH_SOURCE[0]}")/inside.sh" "$root/trial/"

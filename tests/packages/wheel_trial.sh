@@ -6,15 +6,8 @@
 set -euo pipefail
 wheel=$(realpath "$1") root=$(realpath "$2")
 scenes=$(realpath "$(dirname "${BASH_SOURCE[0]}")/../../scenes")
-((EUID == 0)) || { echo "only root can change its root"; exit 77; }
-
-for name in proc dev; do mount --bind "/$name" "$root/$name"; done
-finish() {
-  umount "$root/proc" "$root/dev"
-  rm -rf "$root/trial"
-}
-trap finish EXIT
-mkdir "$root/trial"
+# shellcheck source=tests/packages/root.sh
+source "$(dirname "${BASH_SOURCE[0]}")/root.sh"
 cp "$wheel" "$scenes/first_light.toml" "$scenes/crambin.xyz" "$root/trial/"
 cat >"$root/trial/inside.sh" <<'INSIDE'
 set -euo pipefail

@@ -15,22 +15,13 @@ constexpr double bar_width = 18, bar_height = 220, tick_length = 5;
 constexpr double row_height = 22, dot_radius = 7;
 constexpr std::size_t rows_in_column = 20;
 
-/// Text as XML has it; what XML cannot have becomes a question mark.
-std::string escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
+/// Text in ASCII as XML has it; all else becomes a question mark.
+std::string plain_text(std::string text) {
+  for (char& c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    if (c == '<') {
-      escaped += "&lt;";
-    } else if (c == '>') {
-      escaped += "&gt;";
-    } else if (c == '&') {
-      escaped += "&amp;";
-    } else {
-      escaped += byte < 0x20 || byte >= 0x7f ? '?' : c;
-    }
+    if (byte < 0x20 || byte >= 0x7f) c = '?';
   }
-  return escaped;
+  return xml_text(text);
 }
 
 double width_of(const std::string& text) { return letter_width * static_cast<double>(text.size()); }
@@ -55,7 +46,7 @@ class Legend {
 /// A text whose middle is at the height `y`.
 void Legend::add_text(double x, double y, const std::string& text) {
   parts_ += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x, y + 0.35 * text_size,
-                        escaped(text));
+                        plain_text(text));
   width_ = std::max(width_, x + width_of(text) + border);
 }
 
@@ -158,6 +149,22 @@ std::vector<ParticleColors::Species> legend_rows(const ParticleColors& colors) {
     if (row.name.empty()) row.name = "missing";
   }
   return rows;
+}
+
+std::string xml_text(const std::string& text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '<') {
+      safe += "&lt;";
+    } else if (c == '>') {
+      safe += "&gt;";
+    } else if (c == '&') {
+      safe += "&amp;";
+    } else {
+      safe += c;
+    }
+  }
+  return safe;
 }
 
 std::string legend_svg(const std::vector<ParticleColors>& colors) {

@@ -28,4 +28,7 @@ std::vector<LegendTick> legend_ticks(double low, double high);
 /// "missing".
 std::vector<ParticleColors::Species> legend_rows(const ParticleColors& colors);
 
+/// Text as XML has it. Precondition: it has only characters that XML can have.
+std::string xml_text(const std::string& text);
+
 }  // namespace boule

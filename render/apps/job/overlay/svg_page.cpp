@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "render/apps/job/legend.h"
 #include "render/image/encode_image.h"
 
 namespace boule {
@@ -107,22 +108,6 @@ std::string halo_of(const DrawnItem& item) {
 }
 
 }  // namespace
-
-std::string xml_text(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<') {
-      safe += "&lt;";
-    } else if (c == '>') {
-      safe += "&gt;";
-    } else if (c == '&') {
-      safe += "&amp;";
-    } else {
-      safe += c;
-    }
-  }
-  return safe;
-}
 
 Result<std::string> svg_page(const Drawing& drawing, const Image& image, double pixels_per_point,
                              const ImageFileOptions& options) {

@@ -14,7 +14,4 @@ namespace boule {
 Result<std::string> svg_page(const Drawing& drawing, const Image& image, double pixels_per_point,
                              const ImageFileOptions& options);
 
-/// Text as XML has it. Precondition: it is drawable().
-std::string xml_text(const std::string& text);
-
 }  // namespace boule
