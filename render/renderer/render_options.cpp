@@ -34,12 +34,17 @@ std::uint64_t bytes_of_whole(const RenderOptions& options) {
          AovChannels::bytes(options.aovs, rect);
 }
 
+/// What scenes have as well, each field by its rule.
+template <class Settings>
+Status validate_settings(const Settings& settings) {
+  const auto problem = find_problem(settings);
+  if (!problem) return {};
+  return Diagnostic::about(std::string(fields<Settings>.type) + "." + problem->field,
+                           problem->message);
+}
+
 /// The edges, which limit the numbers of samples.
 Status validate_edges(const RenderOptions& options) {
-  if (!rule::aa.allows(double{options.aa}))
-    return Diagnostic::about("render.aa", "must be " + describe(rule::aa));
-  if (!rule::weight.allows(double{options.least_weight}))
-    return Diagnostic::about("render.least_weight", "must be " + describe(rule::weight));
   if (!(options.aa > 0)) return {};
   if (options.method == Method::path) {
     return Diagnostic::about("render.aa",
@@ -63,10 +68,6 @@ Status check_picture_memory(const RenderOptions& options) {
 
 /// The noise, which limits the numbers of samples.
 Status validate_noise(const RenderOptions& options) {
-  if (!rule::noise.allows(double{options.noise}))
-    return Diagnostic::about("render.noise", "must be " + describe(rule::noise));
-  if (auto done = check_range("render.min_spp", options.min_spp, rule::least_samples); !done)
-    return done;
   if (options.noise > 0 && options.spp < options.min_spp) {
     return Diagnostic::about("image.spp", "must be at least " + std::to_string(options.min_spp) +
                                               ", the min_spp, where noise is asked for");
@@ -85,19 +86,7 @@ Status validate_noise(const RenderOptions& options) {
 }  // namespace
 
 RenderOptions options_of(const Scene& scene) {
-  RenderOptions options;
-  options.width = scene.image.width;
-  options.height = scene.image.height;
-  options.spp = scene.image.spp;
-  options.filter = scene.image.filter;
-  options.transparent = scene.image.transparent;
-  options.outline = scene.image.outline;
-  options.method = scene.render.method;
-  options.max_depth = scene.render.max_depth;
-  options.noise = scene.render.noise;
-  options.min_spp = scene.render.min_spp;
-  options.aa = scene.render.aa;
-  options.least_weight = scene.render.least_weight;
+  RenderOptions options{scene.image, scene.render};
   if (options.noise > 0 && options.spp == 1) options.spp = usual_max_spp;
   if (options.aa > 0 && options.spp == 1) options.spp = usual_max_edge_spp;
   return options;
@@ -143,20 +132,14 @@ int fitting_tile(const RenderOptions& options, unsigned workers, std::size_t sph
 }
 
 Status validate(const RenderOptions& options) {
-  if (auto done = check_range("image.size", options.width, rule::image_side); !done) return done;
-  if (auto done = check_range("image.size", options.height, rule::image_side); !done) return done;
-  if (auto done = check_range("image.spp", options.spp, rule::samples); !done) return done;
-  if (auto done = check_range("render.max_depth", options.max_depth, rule::bounces); !done)
-    return done;
+  if (auto done = validate_settings<ImageSettings>(options); !done) return done;
+  if (auto done = validate_settings<RenderSettings>(options); !done) return done;
   if (auto done = check_range("tile", options.tile, {.low = 0, .high = max_tile}); !done)
     return done;
   if (auto done = validate_noise(options); !done) return done;
   if (auto done = validate_edges(options); !done) return done;
   if (options.shadow_epsilon && !rule::not_negative.allows(double{*options.shadow_epsilon})) {
     return Diagnostic::about("shadow_epsilon", "must be " + describe(rule::not_negative));
-  }
-  if (!rule::outline.allows(double{options.outline})) {
-    return Diagnostic::about("image.outline", "must be " + describe(rule::outline));
   }
   const PixelRect frame{0, 0, options.width, options.height}, rect = rendered_rect(options);
   if (rect.empty() || !contains(frame, rect)) {

@@ -21,36 +21,22 @@
 
 namespace boule {
 
-/// The options of a rendering. The picture depends only on the options from `width` to `crop`, and
-/// on `solver` if that is fast or if there is a `shadow_epsilon`.
-struct RenderOptions {
-  int width = 1280;  ///< pixels of the whole frame, 1 .. 65535
-  int height = 720;  ///< likewise
-  int spp = 1;       ///< samples per pixel, >= 1; with `noise` or `aa` the largest number
-  /// Pixels get min_spp to spp samples until their noise is this (NoiseTarget), 0 .. 1; 0: all get
-  /// spp. In films, which Renderer::render_pass() and similar functions fill, all pixels get spp.
-  float noise = 0;
-  int min_spp = 32;  ///< >= 16
-  /// For method whitted and cameras without a lens: pixels at edges get up to spp samples, the
-  /// others one (EdgeTarget), 0 .. 255; 0: all get spp. In films all pixels get spp.
-  float aa = 0;
+/// The options of a rendering: what a scene asks for, and what only the program that renders knows.
+/// In films, which Renderer::render_pass() and similar functions fill, all pixels get spp samples.
+/// With `transparent`, samples whose camera ray misses are black. `aa` is for method whitted and
+/// cameras without a lens. The picture depends only on the scene's settings, on `exposure_stops`
+/// (noise and edges), `seed` and `crop`, and on `solver` if that is fast or if there is a
+/// `shadow_epsilon`.
+struct RenderOptions : ImageSettings, RenderSettings {
   float exposure_stops = 0;  ///< at which noise and edges are judged, in stops, -126 .. 126
-  PixelFilter filter = PixelFilter::box;
-  std::uint64_t seed = 0;  ///< of all random numbers
-  Method method = Method::whitted;
-  int max_depth = 5;       ///< bounces after the primary hit, >= 0
-  float least_weight = 0;  ///< IntegratorSettings::least_weight, 0 .. 1
-  /// Samples whose camera ray misses are black, and pictures have alpha: the fraction of a pixel's
-  /// samples that hit something.
-  bool transparent = false;
+  std::uint64_t seed = 0;    ///< of all random numbers
   Solver solver = Solver::robust;
   /// For teaching: the lecture's epsilon at which shadow rays start, in units of length, 0 (without
   /// a remedy for false shadows) or more. Without it, shadow rays know the surface that they leave.
   std::optional<float> shadow_epsilon{};
-  float outline = 0;                ///< width of dark lines (Outline) in pixels, 0 .. 100; 0: off
-  std::optional<PixelRect> crop{};  ///< the pixels of the frame to render; empty: all
-  AovSelection aovs{};              ///< the AOVs that render_aovs() computes
-  bool in_bands = false;            ///< the rendering needs memory for render_bands() only
+  std::optional<PixelRect> crop{};       ///< the pixels of the frame to render; empty: all
+  AovSelection aovs{};                   ///< the AOVs that render_aovs() computes
+  bool in_bands = false;                 ///< the rendering needs memory for render_bands() only
   PixelOrder order = PixelOrder::tiles;  ///< of all but render_bands()
   int tile = 0;              ///< side of a block in pixels, 1 .. 1024; 0: fitting_tile()
   unsigned threads = 0;      ///< at most 1024; 0: as many as the hardware runs at once

@@ -49,7 +49,7 @@ using namespace boule;
 [[maybe_unused]] const ShownGroup shown{.group = 1};
 
 [[maybe_unused]] const Query query{.solver = Solver::fast};
-[[maybe_unused]] const RenderOptions render_options{.width = 4, .height = 3};
+[[maybe_unused]] const RenderOptions render_options{{.width = 4, .height = 3}, {.max_depth = 4}};
 [[maybe_unused]] const AovSelection aovs{.depth = true};
 [[maybe_unused]] const PixelRect rect{.x1 = 4};
 [[maybe_unused]] const StepLimit limit{.seconds = 1};

@@ -168,13 +168,15 @@ Scene glass_ball() {
 std::vector<Case> cases() {
   Scene open = mixed_scene(side, side);
   open.camera = ThinLensCamera{{{0.5f, 1.6f, 6}, {0, 0.8f, 0}, {0, 1, 0}}, 50, FovAxis::x, 0.1f};
-  RenderOptions lines{.transparent = true, .outline = 1};
+  RenderOptions lines{{.transparent = true, .outline = 1}, {}};
+  RenderOptions in_passes{{.spp = 5}, {}};
+  in_passes.order = PixelOrder::progressive;
   lines.aovs = {.depth = true, .id = true, .albedo = true};
   return {picture("glass", glass_ball()),
-          picture("mixed", mixed_scene(side, side), {.spp = 2}),
+          picture("mixed", mixed_scene(side, side), {{.spp = 2}, {}}),
           picture("deep", glass_cloud(side, side)),
-          picture("lens", open, {.spp = 5, .order = PixelOrder::progressive}),
-          picture("path", path_scene(side, side), {.spp = 3}),
+          picture("lens", open, in_passes),
+          picture("path", path_scene(side, side), {{.spp = 3}, {}}),
           picture("lines", mixed_scene(side, side), lines)};
 }
 
@@ -358,7 +360,7 @@ TEST(MemoryEndOfFiles, OfWritingAPicture) {
 }
 
 TEST(MemoryEndOfRenderer, OneThatWasMovedAwayRefuses) {
-  const Case one = picture("", glass_ball(), {.spp = 64, .noise = 0.1F});
+  const Case one = picture("", glass_ball(), {{.spp = 64}, {.noise = 0.1F}});
   Work w;
   Renderer renderer = Renderer::create(one.scene, one.options).value();
   const Renderer taken = std::move(renderer);
