@@ -74,6 +74,7 @@ ExitCode serve(const ViewCommand& command, view::WebServer& server, view::ViewSe
   settings.address = command.address;
   settings.port = static_cast<unsigned short>(command.port);
   settings.token = token;
+  settings.embed = command.embed;
   settings.idle_seconds = command.idle;
   settings.stop = [&written] { return StopGuard::flag() || !written.ok(); };
   settings.ready = [&](const std::string& url) {

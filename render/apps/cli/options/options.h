@@ -102,7 +102,8 @@ struct SceneCommand : SceneJob {
 struct ViewCommand {
   RenderCommand render;
   std::string address = "127.0.0.1";
-  int port = 0;  ///< 0: one that is free
+  int port = 0;        ///< 0: one that is free
+  bool embed = false;  ///< in pages of others
   bool open = false;
   std::optional<double> idle;  ///< seconds
 };

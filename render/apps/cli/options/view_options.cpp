@@ -12,6 +12,7 @@ void add_view_options(CLI::App& app, ViewCommand& view) {
   add_parsed(app, "--listen", view.address, parse_words, "an address in numbers", "ADDR",
              "Address to listen on (127.0.0.1: this machine only)");
   add_whole(app, "--port", view.port, 0, 65535, "Port, 0: one that is free (0)");
+  app.add_flag("--embed", view.embed, "Let pages of others show the page in a frame: notebooks");
   app.add_flag("--open", view.open, "Open the page in the browser");
   add_parsed(app, "--idle", view.idle, parse_duration,
              "a time above 0 in ms, s, m or h, such as 10m", "TIME",

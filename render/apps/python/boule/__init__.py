@@ -51,6 +51,7 @@ from ._rendering import Interrupted, render
 from ._scene import Capsules, Group, Scene, Spheres
 from ._sources import frames, from_ase, from_particles, load, series
 from ._tracing import Chords, Crossings, Hits, Members, Nearest, Pairs, Tracer
+from ._viewing import View, view
 
 _install()
 del _install
@@ -97,6 +98,7 @@ __all__ = [
     "Spheres",
     "ThinLens",
     "Tracer",
+    "View",
     "__version__",
     "frames",
     "from_ase",
@@ -105,6 +107,7 @@ __all__ = [
     "load",
     "render",
     "series",
+    "view",
 ]
 
 for _name in __all__:  # as they are known to those who use them

@@ -671,6 +671,7 @@ class Scene(_Objects):
         crop: str | Sequence[int] | None = ...,
         frame: int | None = ...,
     ) -> Rays: ...
+    def save(self, path: _Path) -> None: ...
     def fitted_camera(
         self, size: str | Sequence[int] | None = ...
     ) -> Pinhole | Orthographic: ...
@@ -833,6 +834,61 @@ class Picture:
     def __array__(self, dtype: Any = ...) -> NDArray[Any]: ...
     def _repr_png_(self) -> bytes: ...
 
+class View:
+    url: str
+    notes: list[str]
+    def __init__(
+        self, process: Any, url: str, notes: list[str], title: str, height: int, folder: Any
+    ) -> None: ...
+    def close(self) -> None: ...
+    def open(self) -> bool: ...
+    def __enter__(self) -> View: ...
+    def __exit__(self, *_: object) -> None: ...
+    def _repr_html_(self) -> str: ...
+
+def view(
+    scene: Scene | _Path,
+    *,
+    size: tuple[int, int] | None = ...,
+    spp: int | None = ...,
+    frames: range | None = ...,
+    threads: int | None = ...,
+    height: int = ...,
+    look: _Look | None = ...,
+    quick: bool = ...,
+    floor: bool = ...,
+    input_format: str | None = ...,
+    columns: str | Sequence[str] | None = ...,
+    water: bool = ...,
+    topology: str | None = ...,
+    color: str | None = ...,
+    colors: str | Mapping[str, str] | None = ...,
+    map: _Map | None = ...,
+    range: Sequence[float] | None = ...,
+    nan_color: str | None = ...,
+    radius: float | str | None = ...,
+    radii: str | Mapping[str, float] | None = ...,
+    scale: float | None = ...,
+    style: _Style | None = ...,
+    bonds: float | str | None = ...,
+    bond_radius: float | None = ...,
+    bond_color: str | None = ...,
+    cell_edges: bool = ...,
+    axes: bool = ...,
+    arrows: str | Sequence[str] | None = ...,
+    arrow_scale: float | None = ...,
+    select: str | None = ...,
+    wrap: bool = ...,
+    unwrap: bool = ...,
+    boundary: bool = ...,
+    replicate: str | Sequence[int] | None = ...,
+    view: str | _Vector | None = ...,
+    up: str | _Vector | None = ...,
+    roll: float | None = ...,
+    ortho: bool = ...,
+    fov: float | None = ...,
+    margin: float | None = ...,
+) -> View: ...
 def load(
     source: _Path,
     *,

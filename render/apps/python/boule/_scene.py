@@ -17,6 +17,7 @@ from ._objects import (
     Sphere,
     Table,
     error,
+    path_of,
 )
 
 
@@ -404,6 +405,14 @@ class Scene(_Objects):
         tree = self._tree()
         tree.pop("camera", None)
         return _camera.fitted_camera(tree, self.camera, size)
+
+    def save(self, path):
+        """Writes the scene to a packed file, .boule, of which the program and render() make the same
+        pictures, bit for bit. It appears when it is complete.
+
+        Raises Error if it cannot be written, MemoryError if there is too little memory.
+        """
+        _core.pack(self._tree(), path_of(path, "path"))
 
     def _tree(self):
         """The scene as its file would have it."""

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "core/scene/instances.h"
 #include "render/apps/job/particle_scene.h"
 #include "render/apps/job/render_choices.h"
 #include "render/apps/job/scene_loader.h"
@@ -17,8 +18,11 @@
 #include "render/apps/python/values/job_arguments.h"
 #include "render/apps/python/values/made_by_calls.h"
 #include "render/apps/python/values/presence.h"
+#include "render/files/packed/pack.h"
+#include "render/files/packed/packed_file.h"
 #include "render/files/scene_file/loaded/frame_name.h"
 #include "render/files/scene_file/scene_tree.h"
+#include "render/memory/available_memory.h"
 
 namespace py = pybind11;
 
@@ -134,6 +138,25 @@ py::dict show_particles(const Data& data, const py::dict& keys) {
   return values_of(std::move(made.loaded));
 }
 
+/// Writes a scene to a packed file.
+void pack_scene(const py::object& source, const std::string& path) {
+  if (!is_packed_name(path)) throw_error("path", "expected a name that ends with .boule");
+  const SceneRequest request(source, {});
+  check(interruptible([request, path](Call& call) -> Status {
+    auto loaded = request.load(call);
+    if (!loaded) return loaded.error();
+    Scene& scene = loaded.value().scene;
+    expand_instances(scene);
+    SpheresInMemory spheres(std::exchange(scene.spheres, {}));
+    const PackMeans means{.memory = available_memory() / 2,
+                          .beside = {},
+                          .parallel_for = call.parallel_for(),
+                          .stop = [&call] { return call.cancel.load(); }};
+    const auto packed = pack({std::move(scene), loaded.value().origin, spheres, path, means});
+    return packed ? Status() : packed.error();
+  }));
+}
+
 }  // namespace
 
 SceneRequest::SceneRequest(const py::object& source, const py::dict& keys) {
@@ -179,6 +202,7 @@ void bind_scenes(py::module_& module) {
       .def("read", &next_of_series, inside(), py::arg("frame"));
   module.def("series_of", &series_of, inside(), py::arg("all"), py::arg("keys"));
   module.def("count_frames", &count_frames, inside(), py::arg("path"), py::arg("keys"));
+  module.def("pack", &pack_scene, inside(), py::arg("source"), py::arg("path"));
   module.def("read", &read_scene, inside(), py::arg("source"), py::arg("keys"));
   module.def("show_particles", &show_particles, inside(), py::arg("particles"), py::arg("keys"));
 }

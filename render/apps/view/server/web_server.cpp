@@ -260,9 +260,11 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   }
 
   void send(Response response) {
-    response.set("Content-Security-Policy",
-                 "default-src 'self'; img-src 'self' blob: data:; connect-src 'self'; "
-                 "frame-ancestors 'none'; base-uri 'none'; form-action 'none'");
+    std::string policy =
+        "default-src 'self'; img-src 'self' blob: data:; connect-src 'self'; "
+        "base-uri 'none'; form-action 'none'";
+    if (!hub_.settings->embed) policy += "; frame-ancestors 'none'";
+    response.set("Content-Security-Policy", policy);
     response.set("Referrer-Policy", "no-referrer");
     response.set(http::field::cache_control, "no-store");
     response.set("X-Content-Type-Options", "nosniff");

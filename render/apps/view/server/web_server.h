@@ -16,6 +16,7 @@ struct ServerSettings {
   std::string address = "127.0.0.1";  ///< a number
   unsigned short port = 0;            ///< 0: one that is free
   std::string token;
+  bool embed = false;                      ///< pages of others may show the page in a frame
   std::optional<double> idle_seconds;      ///< ends when no client was there for so long
   std::function<bool()> stop;              ///< asked often: true ends it
   std::function<void(std::string)> ready;  ///< told the URL once it can be opened
