@@ -43,7 +43,8 @@ class CMakeBuild(build_ext):
         target = pathlib.Path(self.build_lib) / "boule"
         if self.inplace:
             target = ROOT / "render" / "apps" / "python" / "boule"
-        shutil.copytree(build / "boule", target, dirs_exist_ok=True)
+        sources = shutil.ignore_patterns("*.py*") if self.inplace else None  # there already
+        shutil.copytree(build / "boule", target, dirs_exist_ok=True, ignore=sources)
         # Pictures are read and written by this module, which is looked for beside the package's own.
         shutil.copy2(build / "bin" / "boule_image_io.so", target)
         for overlay in (build / "bin").glob("boule_overlay.so"):  # where pango was there

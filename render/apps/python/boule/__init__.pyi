@@ -36,55 +36,29 @@ class Interrupted(KeyboardInterrupt):
     picture: Picture | None
     def __init__(self, picture: Picture | None = ...) -> None: ...
 
-class Matte:
-    color: _Color
-    def __init__(
-        self,
-        *,
-        color: _Color = ...,
-    ) -> None: ...
+class _Keys:
+    """Has its attributes as keywords, and all may be left out: see expand_stubs.py."""
 
-class Plastic:
+class Matte(_Keys):
+    color: _Color
+
+class Plastic(_Keys):
     color: _Color
     specular: float
     shininess: float
     reflect: float
-    def __init__(
-        self,
-        *,
-        color: _Color = ...,
-        specular: float = ...,
-        shininess: float = ...,
-        reflect: float = ...,
-    ) -> None: ...
 
-class Metal:
+class Metal(_Keys):
     color: _Color
-    def __init__(
-        self,
-        *,
-        color: _Color = ...,
-    ) -> None: ...
 
-class Glass:
+class Glass(_Keys):
     color: _Color
     ior: float
-    def __init__(
-        self,
-        *,
-        color: _Color = ...,
-        ior: float = ...,
-    ) -> None: ...
 
-class Emissive:
+class Emissive(_Keys):
     radiance: _Color
-    def __init__(
-        self,
-        *,
-        radiance: _Color = ...,
-    ) -> None: ...
 
-class Phong:
+class Phong(_Keys):
     color: _Color
     ka: float
     kd: float
@@ -92,19 +66,8 @@ class Phong:
     shininess: float
     transmission: float
     ior: float
-    def __init__(
-        self,
-        *,
-        color: _Color = ...,
-        ka: float = ...,
-        kd: float = ...,
-        ks: float = ...,
-        shininess: float = ...,
-        transmission: float = ...,
-        ior: float = ...,
-    ) -> None: ...
 
-class Pinhole:
+class Pinhole(_Keys):
     eye: _Vector | None
     look_at: _Vector | None
     up: _Vector
@@ -112,37 +75,16 @@ class Pinhole:
     fov_axis: _FovAxis
     distortion: Distortion | None
     key: Sequence[_Key] | None
-    def __init__(
-        self,
-        *,
-        eye: _Vector | None = ...,
-        look_at: _Vector | None = ...,
-        up: _Vector = ...,
-        fov: float = ...,
-        fov_axis: _FovAxis = ...,
-        distortion: Distortion | None = ...,
-        key: Sequence[_Key] | None = ...,
-    ) -> None: ...
 
-class Orthographic:
+class Orthographic(_Keys):
     eye: _Vector | None
     look_at: _Vector | None
     up: _Vector
     height: float
     distortion: Distortion | None
     key: Sequence[_Key] | None
-    def __init__(
-        self,
-        *,
-        eye: _Vector | None = ...,
-        look_at: _Vector | None = ...,
-        up: _Vector = ...,
-        height: float = ...,
-        distortion: Distortion | None = ...,
-        key: Sequence[_Key] | None = ...,
-    ) -> None: ...
 
-class Fisheye:
+class Fisheye(_Keys):
     eye: _Vector | None
     look_at: _Vector | None
     up: _Vector
@@ -150,19 +92,8 @@ class Fisheye:
     fov_axis: _FovAxis
     distortion: Distortion | None
     key: Sequence[_Key] | None
-    def __init__(
-        self,
-        *,
-        eye: _Vector | None = ...,
-        look_at: _Vector | None = ...,
-        up: _Vector = ...,
-        fov: float = ...,
-        fov_axis: _FovAxis = ...,
-        distortion: Distortion | None = ...,
-        key: Sequence[_Key] | None = ...,
-    ) -> None: ...
 
-class ThinLens:
+class ThinLens(_Keys):
     eye: _Vector | None
     look_at: _Vector | None
     up: _Vector
@@ -174,23 +105,8 @@ class ThinLens:
     focal_length: float | None
     distortion: Distortion | None
     key: Sequence[_Key] | None
-    def __init__(
-        self,
-        *,
-        eye: _Vector | None = ...,
-        look_at: _Vector | None = ...,
-        up: _Vector = ...,
-        fov: float = ...,
-        fov_axis: _FovAxis = ...,
-        aperture: float | None = ...,
-        focus: float | _Vector | None = ...,
-        f_number: float | None = ...,
-        focal_length: float | None = ...,
-        distortion: Distortion | None = ...,
-        key: Sequence[_Key] | None = ...,
-    ) -> None: ...
 
-class Lens:
+class Lens(_Keys):
     eye: _Vector | None
     look_at: _Vector | None
     up: _Vector
@@ -202,23 +118,8 @@ class Lens:
     distortion: Distortion | None
     key: Sequence[_Key] | None
     surfaces: NDArray[Any] | None
-    def __init__(
-        self,
-        *,
-        eye: _Vector | None = ...,
-        look_at: _Vector | None = ...,
-        up: _Vector = ...,
-        file: _Path | None = ...,
-        film_width: float = ...,
-        scale: float = ...,
-        focus: float | _Vector | None = ...,
-        surfaces: ArrayLike | None = ...,
-        f_number: float | None = ...,
-        distortion: Distortion | None = ...,
-        key: Sequence[_Key] | None = ...,
-    ) -> None: ...
 
-class Fit:
+class Fit(_Keys):
     type: Literal["pinhole", "orthographic"]
     direction: _Vector | None
     up: _Vector | None
@@ -228,199 +129,84 @@ class Fit:
     pose: Literal["upright", "principal"] | None
     roll: float
     distortion: Distortion | None
-    def __init__(
-        self,
-        *,
-        type: Literal["pinhole", "orthographic"] = ...,
-        direction: _Vector | None = ...,
-        up: _Vector | None = ...,
-        fov: float = ...,
-        fov_axis: _FovAxis | None = ...,
-        margin: float = ...,
-        pose: Literal["upright", "principal"] | None = ...,
-        roll: float = ...,
-        distortion: Distortion | None = ...,
-    ) -> None: ...
 
-class Distortion:
+class Distortion(_Keys):
     file: _Path | None
     st: NDArray[Any] | None
-    def __init__(
-        self,
-        *,
-        file: _Path | None = ...,
-        st: ArrayLike | None = ...,
-    ) -> None: ...
 
-class ConstantBackground:
+class ConstantBackground(_Keys):
     color: _Color
-    def __init__(
-        self,
-        *,
-        color: _Color = ...,
-    ) -> None: ...
 
-class GradientBackground:
+class GradientBackground(_Keys):
     bottom: _Color
     top: _Color
     up: _Vector
-    def __init__(
-        self,
-        *,
-        bottom: _Color = ...,
-        top: _Color = ...,
-        up: _Vector = ...,
-    ) -> None: ...
 
-class EnvironmentBackground:
+class EnvironmentBackground(_Keys):
     file: _Path | None
     rotation: float
     pixels: NDArray[Any] | None
-    def __init__(
-        self,
-        *,
-        file: _Path | None = ...,
-        rotation: float = ...,
-        pixels: ArrayLike | None = ...,
-    ) -> None: ...
 
-class PointLight:
+class PointLight(_Keys):
     position: _Vector
     intensity: _Color
     falloff: Literal["none", "inverse_square"]
     relative_to: _Frame
-    def __init__(
-        self,
-        *,
-        position: _Vector = ...,
-        intensity: _Color = ...,
-        falloff: Literal["none", "inverse_square"] = ...,
-        relative_to: _Frame = ...,
-    ) -> None: ...
 
-class DirectionalLight:
+class DirectionalLight(_Keys):
     direction: _Vector
     intensity: _Color
     relative_to: _Frame
-    def __init__(
-        self,
-        *,
-        direction: _Vector = ...,
-        intensity: _Color = ...,
-        relative_to: _Frame = ...,
-    ) -> None: ...
 
-class SphereLight:
+class SphereLight(_Keys):
     center: _Vector
     radius: float
     radiance: _Color
     relative_to: _Frame
     color: _Color | None
-    def __init__(
-        self,
-        *,
-        center: _Vector = ...,
-        radius: float = ...,
-        radiance: _Color = ...,
-        relative_to: _Frame = ...,
-        color: _Color | None = ...,
-    ) -> None: ...
 
-class ImageSettings:
+class ImageSettings(_Keys):
     size: Sequence[int]
     spp: int
     filter: _Filter
     transparent: bool
     outline: float
-    def __init__(
-        self,
-        *,
-        size: Sequence[int] = ...,
-        spp: int = ...,
-        filter: _Filter = ...,
-        transparent: bool = ...,
-        outline: float = ...,
-    ) -> None: ...
 
-class RenderSettings:
+class RenderSettings(_Keys):
     method: _Method
     max_depth: int
     noise: float
     min_spp: int
     aa: float
     least_weight: float
-    def __init__(
-        self,
-        *,
-        method: _Method = ...,
-        max_depth: int = ...,
-        noise: float = ...,
-        min_spp: int = ...,
-        aa: float = ...,
-        least_weight: float = ...,
-    ) -> None: ...
 
-class Sphere:
+class Sphere(_Keys):
     center: _Vector
     radius: float
     material: _Material | str | None
     color: _Color | None
-    def __init__(
-        self,
-        *,
-        center: _Vector = ...,
-        radius: float = ...,
-        material: _Material | str | None = ...,
-        color: _Color | None = ...,
-    ) -> None: ...
 
-class Plane:
+class Plane(_Keys):
     point: _Vector
     normal: _Vector
     material: _Material | str | None
     color: _Color | None
-    def __init__(
-        self,
-        *,
-        point: _Vector = ...,
-        normal: _Vector = ...,
-        material: _Material | str | None = ...,
-        color: _Color | None = ...,
-    ) -> None: ...
 
-class Capsule:
+class Capsule(_Keys):
     a: _Vector
     b: _Vector
     radius: float
     material: _Material | str | None
     color: _Color | None
-    def __init__(
-        self,
-        *,
-        a: _Vector = ...,
-        b: _Vector = ...,
-        radius: float = ...,
-        material: _Material | str | None = ...,
-        color: _Color | None = ...,
-    ) -> None: ...
 
-class Instance:
+class Instance(_Keys):
     group: Group | str | None
     translate: _Vector
     rotate: _Vector
     scale: float
     material: _Material | str | None
-    def __init__(
-        self,
-        *,
-        group: Group | str | None = ...,
-        translate: _Vector = ...,
-        rotate: _Vector = ...,
-        scale: float = ...,
-        material: _Material | str | None = ...,
-    ) -> None: ...
 
-class Particles:
+class Particles(_Keys):
     file: _Path | None
     frame: int | None
     format: str | None
@@ -447,36 +233,6 @@ class Particles:
     boundary: bool | None
     replicate: Sequence[int] | None
     material: _Material | str | None
-    def __init__(
-        self,
-        *,
-        file: _Path | None = ...,
-        frame: int | None = ...,
-        format: str | None = ...,
-        columns: Sequence[str] | None = ...,
-        water: bool | None = ...,
-        topology: str | None = ...,
-        radius: float | str | None = ...,
-        radii: Mapping[str, float] | None = ...,
-        scale: float | None = ...,
-        color: _Color | _Key | None = ...,
-        colors: Mapping[str, _Color] | None = ...,
-        nan_color: _Color | None = ...,
-        style: _Style | None = ...,
-        bonds: float | str | None = ...,
-        bond_radius: float | None = ...,
-        bond_color: _Color | None = ...,
-        cell_edges: bool | None = ...,
-        axes: bool | None = ...,
-        arrows: str | Sequence[str] | None = ...,
-        arrow_scale: float | None = ...,
-        select: str | None = ...,
-        wrap: bool | None = ...,
-        unwrap: bool | None = ...,
-        boundary: bool | None = ...,
-        replicate: Sequence[int] | None = ...,
-        material: _Material | str | None = ...,
-    ) -> None: ...
 
 _Material = Union[Matte, Plastic, Metal, Glass, Emissive, Phong]
 _Camera = Union[Pinhole, Orthographic, Fisheye, ThinLens, Lens, Fit]
@@ -552,44 +308,9 @@ class _Objects:
         color: _Color | None = ...,
         material: _Material | str | None = ...,
     ) -> Spheres: ...
-    def add_sphere(
-        self,
-        *,
-        center: _Vector = ...,
-        radius: float = ...,
-        material: _Material | str | None = ...,
-        color: _Color | None = ...,
-    ) -> Sphere: ...
-    def add_particles(
-        self,
-        file: _Path,
-        *,
-        frame: int | None = ...,
-        format: str | None = ...,
-        columns: Sequence[str] | None = ...,
-        water: bool | None = ...,
-        topology: str | None = ...,
-        radius: float | str | None = ...,
-        radii: Mapping[str, float] | None = ...,
-        scale: float | None = ...,
-        color: _Color | _Key | None = ...,
-        colors: Mapping[str, _Color] | None = ...,
-        nan_color: _Color | None = ...,
-        select: str | None = ...,
-        wrap: bool | None = ...,
-        unwrap: bool | None = ...,
-        boundary: bool | None = ...,
-        replicate: Sequence[int] | None = ...,
-        material: _Material | str | None = ...,
-    ) -> Particles: ...
-    def add_plane(
-        self,
-        *,
-        point: _Vector = ...,
-        normal: _Vector = ...,
-        material: _Material | str | None = ...,
-        color: _Color | None = ...,
-    ) -> Plane: ...
+    def add_sphere(self, **keys: Sphere) -> Sphere: ...
+    def add_particles(self, file: _Path, **keys: Particles) -> Particles: ...
+    def add_plane(self, **keys: Plane) -> Plane: ...
     def add_capsules(
         self,
         a: ArrayLike,
@@ -604,24 +325,8 @@ class _Objects:
         color: _Color | None = ...,
         material: _Material | str | None = ...,
     ) -> Capsules: ...
-    def add_capsule(
-        self,
-        *,
-        a: _Vector = ...,
-        b: _Vector = ...,
-        radius: float = ...,
-        material: _Material | str | None = ...,
-        color: _Color | None = ...,
-    ) -> Capsule: ...
-    def add_instance(
-        self,
-        group: Group | str,
-        *,
-        translate: _Vector = ...,
-        rotate: _Vector = ...,
-        scale: float = ...,
-        material: _Material | str | None = ...,
-    ) -> Instance: ...
+    def add_capsule(self, **keys: Capsule) -> Capsule: ...
+    def add_instance(self, group: Group | str, **keys: Instance) -> Instance: ...
 
 class Group(_Objects):
     name: str
@@ -889,85 +594,61 @@ def view(
     fov: float | None = ...,
     margin: float | None = ...,
 ) -> View: ...
+class _Shown(_Keys):
+    """How particles are shown."""
+
+    look: _Look | None
+    quick: bool
+    floor: bool
+    color: str | None
+    colors: str | Mapping[str, str] | None
+    map: _Map | None
+    range: Sequence[float] | None
+    nan_color: str | None
+    radius: float | str | None
+    radii: str | Mapping[str, float] | None
+    scale: float | None
+    style: _Style | None
+    bonds: float | str | None
+    bond_radius: float | None
+    bond_color: str | None
+    cell_edges: bool
+    axes: bool
+    arrows: str | Sequence[str] | None
+    arrow_scale: float | None
+    select: str | None
+    wrap: bool
+    unwrap: bool
+    boundary: bool
+    replicate: str | Sequence[int] | None
+    view: str | _Vector | None
+    up: str | _Vector | None
+    roll: float | None
+    ortho: bool
+    fov: float | None
+    margin: float | None
+
+class _FromFile(_Shown):
+    """The same of those of a file, and how it is read."""
+
+    input_format: str | None
+    columns: str | Sequence[str] | None
+    water: bool
+    topology: str | None
+
 def load(
     source: _Path,
     *,
     frame: int | None = ...,
     polygons: _Polygons = ...,
-    look: _Look | None = ...,
-    quick: bool = ...,
-    floor: bool = ...,
-    input_format: str | None = ...,
-    columns: str | Sequence[str] | None = ...,
-    water: bool = ...,
-    topology: str | None = ...,
-    color: str | None = ...,
-    colors: str | Mapping[str, str] | None = ...,
-    map: _Map | None = ...,
-    range: Sequence[float] | None = ...,
-    nan_color: str | None = ...,
-    radius: float | str | None = ...,
-    radii: str | Mapping[str, float] | None = ...,
-    scale: float | None = ...,
-    style: _Style | None = ...,
-    bonds: float | str | None = ...,
-    bond_radius: float | None = ...,
-    bond_color: str | None = ...,
-    cell_edges: bool = ...,
-    axes: bool = ...,
-    arrows: str | Sequence[str] | None = ...,
-    arrow_scale: float | None = ...,
-    select: str | None = ...,
-    wrap: bool = ...,
-    unwrap: bool = ...,
-    boundary: bool = ...,
-    replicate: str | Sequence[int] | None = ...,
-    view: str | _Vector | None = ...,
-    up: str | _Vector | None = ...,
-    roll: float | None = ...,
-    ortho: bool = ...,
-    fov: float | None = ...,
-    margin: float | None = ...,
+    **look: _FromFile,
 ) -> Scene: ...
 def frames(
     source: _Path,
     frames: range | None = ...,
     *,
     polygons: _Polygons = ...,
-    look: _Look | None = ...,
-    quick: bool = ...,
-    floor: bool = ...,
-    input_format: str | None = ...,
-    columns: str | Sequence[str] | None = ...,
-    water: bool = ...,
-    topology: str | None = ...,
-    color: str | None = ...,
-    colors: str | Mapping[str, str] | None = ...,
-    map: _Map | None = ...,
-    range: Sequence[float] | None = ...,
-    nan_color: str | None = ...,
-    radius: float | str | None = ...,
-    radii: str | Mapping[str, float] | None = ...,
-    scale: float | None = ...,
-    style: _Style | None = ...,
-    bonds: float | str | None = ...,
-    bond_radius: float | None = ...,
-    bond_color: str | None = ...,
-    cell_edges: bool = ...,
-    axes: bool = ...,
-    arrows: str | Sequence[str] | None = ...,
-    arrow_scale: float | None = ...,
-    select: str | None = ...,
-    wrap: bool = ...,
-    unwrap: bool = ...,
-    boundary: bool = ...,
-    replicate: str | Sequence[int] | None = ...,
-    view: str | _Vector | None = ...,
-    up: str | _Vector | None = ...,
-    roll: float | None = ...,
-    ortho: bool = ...,
-    fov: float | None = ...,
-    margin: float | None = ...,
+    **look: _FromFile,
 ) -> Iterator[Scene]: ...
 def from_particles(
     positions: ArrayLike,
@@ -977,105 +658,10 @@ def from_particles(
     cell: ArrayLike | None = ...,
     periodic: bool | Sequence[bool] = ...,
     angstrom: float = ...,
-    look: _Look | None = ...,
-    quick: bool = ...,
-    floor: bool = ...,
-    color: str | None = ...,
-    colors: str | Mapping[str, str] | None = ...,
-    map: _Map | None = ...,
-    range: Sequence[float] | None = ...,
-    nan_color: str | None = ...,
-    radius: float | str | None = ...,
-    radii: str | Mapping[str, float] | None = ...,
-    scale: float | None = ...,
-    style: _Style | None = ...,
-    bonds: float | str | None = ...,
-    bond_radius: float | None = ...,
-    bond_color: str | None = ...,
-    cell_edges: bool = ...,
-    axes: bool = ...,
-    arrows: str | Sequence[str] | None = ...,
-    arrow_scale: float | None = ...,
-    select: str | None = ...,
-    wrap: bool = ...,
-    unwrap: bool = ...,
-    boundary: bool = ...,
-    replicate: str | Sequence[int] | None = ...,
-    view: str | _Vector | None = ...,
-    up: str | _Vector | None = ...,
-    roll: float | None = ...,
-    ortho: bool = ...,
-    fov: float | None = ...,
-    margin: float | None = ...,
+    **look: _Shown,
 ) -> Scene: ...
-def from_ase(
-    atoms: Any,
-    *,
-    look: _Look | None = ...,
-    quick: bool = ...,
-    floor: bool = ...,
-    color: str | None = ...,
-    colors: str | Mapping[str, str] | None = ...,
-    map: _Map | None = ...,
-    range: Sequence[float] | None = ...,
-    nan_color: str | None = ...,
-    radius: float | str | None = ...,
-    radii: str | Mapping[str, float] | None = ...,
-    scale: float | None = ...,
-    style: _Style | None = ...,
-    bonds: float | str | None = ...,
-    bond_radius: float | None = ...,
-    bond_color: str | None = ...,
-    cell_edges: bool = ...,
-    axes: bool = ...,
-    arrows: str | Sequence[str] | None = ...,
-    arrow_scale: float | None = ...,
-    select: str | None = ...,
-    wrap: bool = ...,
-    unwrap: bool = ...,
-    boundary: bool = ...,
-    replicate: str | Sequence[int] | None = ...,
-    view: str | _Vector | None = ...,
-    up: str | _Vector | None = ...,
-    roll: float | None = ...,
-    ortho: bool = ...,
-    fov: float | None = ...,
-    margin: float | None = ...,
-) -> Scene: ...
-def series(
-    frames: Iterable[Any],
-    *,
-    look: _Look | None = ...,
-    quick: bool = ...,
-    floor: bool = ...,
-    color: str | None = ...,
-    colors: str | Mapping[str, str] | None = ...,
-    map: _Map | None = ...,
-    range: Sequence[float] | None = ...,
-    nan_color: str | None = ...,
-    radius: float | str | None = ...,
-    radii: str | Mapping[str, float] | None = ...,
-    scale: float | None = ...,
-    style: _Style | None = ...,
-    bonds: float | str | None = ...,
-    bond_radius: float | None = ...,
-    bond_color: str | None = ...,
-    cell_edges: bool = ...,
-    axes: bool = ...,
-    arrows: str | Sequence[str] | None = ...,
-    arrow_scale: float | None = ...,
-    select: str | None = ...,
-    wrap: bool = ...,
-    unwrap: bool = ...,
-    boundary: bool = ...,
-    replicate: str | Sequence[int] | None = ...,
-    view: str | _Vector | None = ...,
-    up: str | _Vector | None = ...,
-    roll: float | None = ...,
-    ortho: bool = ...,
-    fov: float | None = ...,
-    margin: float | None = ...,
-) -> Iterator[Scene]: ...
+def from_ase(atoms: Any, **look: _Shown) -> Scene: ...
+def series(frames: Iterable[Any], **look: _Shown) -> Iterator[Scene]: ...
 def render(
     scene: Scene | _Path,
     *,
@@ -1109,38 +695,5 @@ def render(
     frame: int | None = ...,
     polygons: _Polygons | None = ...,
     trust: bool = ...,
-    look: _Look | None = ...,
-    quick: bool = ...,
-    floor: bool = ...,
-    input_format: str | None = ...,
-    columns: str | Sequence[str] | None = ...,
-    water: bool = ...,
-    topology: str | None = ...,
-    color: str | None = ...,
-    colors: str | Mapping[str, str] | None = ...,
-    map: _Map | None = ...,
-    range: Sequence[float] | None = ...,
-    nan_color: str | None = ...,
-    radius: float | str | None = ...,
-    radii: str | Mapping[str, float] | None = ...,
-    scale: float | None = ...,
-    style: _Style | None = ...,
-    bonds: float | str | None = ...,
-    bond_radius: float | None = ...,
-    bond_color: str | None = ...,
-    cell_edges: bool = ...,
-    axes: bool = ...,
-    arrows: str | Sequence[str] | None = ...,
-    arrow_scale: float | None = ...,
-    select: str | None = ...,
-    wrap: bool = ...,
-    unwrap: bool = ...,
-    boundary: bool = ...,
-    replicate: str | Sequence[int] | None = ...,
-    view: str | _Vector | None = ...,
-    up: str | _Vector | None = ...,
-    roll: float | None = ...,
-    ortho: bool = ...,
-    fov: float | None = ...,
-    margin: float | None = ...,
+    **look: _FromFile,
 ) -> Picture: ...

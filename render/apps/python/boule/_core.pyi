@@ -8,6 +8,7 @@ from . import Picture as Picture
 version: str
 render_choices: dict[str, Any]
 look_choices: dict[str, Any]
+file_choices: list[str]
 
 class Data: ...
 

@@ -55,12 +55,7 @@ def with_look(*names, also=()):
 
 
 # What is said of particles in memory: not how a file is read.
-_OF_MEMORY = (
-    "look", "quick", "floor", "color", "colors", "map", "range", "nan_color", "radius", "radii",
-    "scale", "style", "bonds", "bond_radius", "bond_color", "cell_edges", "axes", "arrows",
-    "arrow_scale", "select", "wrap", "unwrap", "boundary", "replicate", "view", "up", "roll",
-    "ortho", "fov", "margin",
-)  # fmt: skip
+_OF_MEMORY = [name for name in _LOOK if name not in _core.file_choices]
 
 
 @with_look()

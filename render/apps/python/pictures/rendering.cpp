@@ -234,6 +234,16 @@ void add_defaults(py::dict& defaults, const List& list) {
   std::apply([&](const auto&... row) { (add(row), ...); }, list);
 }
 
+/// The options that say how a file of particles is read.
+py::list names_of_file_choices() {
+  py::list names;
+  const auto add = [&](const auto& row) {
+    if (row.group == heading::particle_file) names.append(std::string(row.name));
+  };
+  std::apply([&](const auto&... row) { (add(row), ...); }, look_choices());
+  return names;
+}
+
 }  // namespace
 
 void bind_rendering(py::module_& module) {
@@ -243,6 +253,7 @@ void bind_rendering(py::module_& module) {
   add_defaults(of_looks, look_choices());
   module.attr("render_choices") = of_pictures;
   module.attr("look_choices") = of_looks;
+  module.attr("file_choices") = names_of_file_choices();
   py::class_<Rendering>(module, "Rendering")
       .def(py::init<const py::object&, const py::dict&, const py::dict&>(), inside(),
            py::arg("source"), py::arg("keys"), py::arg("options"))
