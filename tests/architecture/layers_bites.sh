@@ -141,7 +141,7 @@ accepted simd/dispatch/cpu.cpp '#include <cpuid.h>'
 accepted render/apps/cli/main.cpp 'std::exit(2);'
 accepted tests/simd/lanes/lanes_test.cpp '#include "simd/lanes/lanes.h"'
 accepted tests/fuzz/fuzz_options.cpp '#include "render/apps/cli/options/options.h"'
-accepted tests/render/apps/cli/options_test.cpp '#include "render/apps/cli/options/options.h"'
+accepted tests/render/apps/cli/options/options_test.cpp '#include "render/apps/cli/options/options.h"'
 accepted tests/render/apps/cli/a.cpp '#include "render/apps/cli/process/pulse.h"'
 accepted tests/render/a.cpp '#include <thread>'
 

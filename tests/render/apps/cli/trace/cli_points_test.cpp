@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "render/renderer/tracer.h"
-#include "tests/render/apps/cli/trace_program.h"
+#include "tests/render/apps/cli/trace/trace_program.h"
 
 namespace boule::test::cli_points {
 namespace {

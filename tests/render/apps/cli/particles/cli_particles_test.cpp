@@ -1,7 +1,7 @@
 // Pictures of particle files without a scene: one command, the scene that it makes.
 #include <nlohmann/json.hpp>
 
-#include "tests/render/apps/cli/particles_fixture.h"
+#include "tests/render/apps/cli/particles/particles_fixture.h"
 #include "tests/render/npy_files.h"
 
 namespace boule::test {

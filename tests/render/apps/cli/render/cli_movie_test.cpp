@@ -2,7 +2,7 @@
 #include <sys/stat.h>
 
 #include "core/base/text.h"
-#include "tests/render/apps/cli/particles_fixture.h"
+#include "tests/render/apps/cli/particles/particles_fixture.h"
 
 namespace boule::test {
 namespace {

@@ -1,7 +1,7 @@
 // Series of particle files without a scene.
 #include <filesystem>
 
-#include "tests/render/apps/cli/particles_fixture.h"
+#include "tests/render/apps/cli/particles/particles_fixture.h"
 
 namespace boule::test {
 namespace {

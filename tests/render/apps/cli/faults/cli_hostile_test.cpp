@@ -8,7 +8,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "tests/render/apps/cli/hostile_files.h"
+#include "tests/render/apps/cli/faults/hostile_files.h"
 #include "tests/render/apps/cli/program.h"
 
 namespace boule::test {

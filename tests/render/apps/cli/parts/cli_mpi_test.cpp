@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "tests/render/apps/cli/part_program.h"
+#include "tests/render/apps/cli/parts/part_program.h"
 
 namespace boule::test {
 namespace {

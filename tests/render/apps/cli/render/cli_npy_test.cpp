@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "render/renderer/tracer.h"
-#include "tests/render/apps/cli/trace_program.h"
+#include "tests/render/apps/cli/trace/trace_program.h"
 
 namespace boule::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "simd/dispatch/dispatch.h"
 #include "simd/geometry/geometry.h"
 #include "simd/stream/stream_buffer.h"
-#include "tests/render/apps/cli/trace_program.h"
+#include "tests/render/apps/cli/trace/trace_program.h"
 
 namespace boule::test::cli_trace {
 namespace {

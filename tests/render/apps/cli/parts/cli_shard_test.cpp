@@ -1,5 +1,5 @@
 // --shard and merge: a picture in parts.
-#include "tests/render/apps/cli/part_program.h"
+#include "tests/render/apps/cli/parts/part_program.h"
 
 namespace boule::test {
 namespace {

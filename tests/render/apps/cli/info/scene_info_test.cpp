@@ -17,7 +17,7 @@
 #include <variant>
 #include <vector>
 
-#include "tests/render/apps/cli/made_fields.h"
+#include "tests/render/apps/cli/particles/made_fields.h"
 #include "tests/render/npy_files.h"
 #include "tests/support/temp_dir.h"
 

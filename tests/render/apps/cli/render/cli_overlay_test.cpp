@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <filesystem>
 
-#include "tests/render/apps/cli/particles_fixture.h"
+#include "tests/render/apps/cli/particles/particles_fixture.h"
 
 namespace boule::test {
 namespace {

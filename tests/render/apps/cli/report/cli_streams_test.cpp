@@ -1,5 +1,5 @@
 // Descriptors that the program is started without: nothing else may take their places.
-#include "tests/render/apps/cli/trace_program.h"
+#include "tests/render/apps/cli/trace/trace_program.h"
 
 namespace boule::test {
 namespace {

@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "tests/render/apps/cli/running_program.h"
-#include "tests/render/apps/cli/trace_program.h"
+#include "tests/render/apps/cli/trace/trace_program.h"
 #include "tests/render/image/files.h"
 
 namespace boule::test {

@@ -1,7 +1,7 @@
 // Data files that mean harm, or went through bad hands: arrays, lenses, pictures, rays.
 #include <limits>
 
-#include "tests/render/apps/cli/hostile_files.h"
+#include "tests/render/apps/cli/faults/hostile_files.h"
 #include "tests/render/npy_files.h"
 
 namespace boule::test {

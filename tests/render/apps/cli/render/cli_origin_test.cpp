@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/render/apps/cli/trace_program.h"
+#include "tests/render/apps/cli/trace/trace_program.h"
 #include "tests/support/case_random.h"
 
 namespace boule::test {

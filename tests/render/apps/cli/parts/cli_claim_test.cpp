@@ -9,7 +9,7 @@
 
 #include "render/apps/cli/process/file_owner.h"
 #include "render/apps/cli/render/claim.h"
-#include "tests/render/apps/cli/part_program.h"
+#include "tests/render/apps/cli/parts/part_program.h"
 #include "tests/render/apps/cli/running_program.h"
 
 namespace boule::test {

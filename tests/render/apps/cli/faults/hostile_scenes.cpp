@@ -1,5 +1,5 @@
 // Scenes that mean harm, or went through bad hands: what may be wrong with a text, in each format.
-#include "tests/render/apps/cli/hostile_files.h"
+#include "tests/render/apps/cli/faults/hostile_files.h"
 
 namespace boule::test {
 namespace {

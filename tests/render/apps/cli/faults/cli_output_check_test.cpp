@@ -6,7 +6,7 @@
 
 #include <cstring>
 
-#include "tests/render/apps/cli/trace_program.h"
+#include "tests/render/apps/cli/trace/trace_program.h"
 
 namespace boule::test {
 namespace {

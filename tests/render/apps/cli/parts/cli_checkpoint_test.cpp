@@ -4,7 +4,7 @@
 #include <random>
 #include <thread>
 
-#include "tests/render/apps/cli/part_program.h"
+#include "tests/render/apps/cli/parts/part_program.h"
 #include "tests/render/apps/cli/running_program.h"
 
 namespace boule::test {

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <thread>
 
-#include "tests/render/apps/cli/particles_fixture.h"
+#include "tests/render/apps/cli/particles/particles_fixture.h"
 
 namespace boule::test {
 namespace {
