@@ -47,7 +47,7 @@ BOULE_INLINE V dot(const Apart<V>& a, V x, V y, V z) {
 
 /// r^2 - F.F, in the order that keeps the chain short.
 template <class V>
-BOULE_INLINE V power(const Apart<V>& f, V r) {
+BOULE_INLINE V power_of_point(const Apart<V>& f, V r) {
   return negated_multiply_add(
       f.z, f.z, negated_multiply_add(f.y, f.y, negated_multiply_add(f.x, f.x, r * r)));
 }
@@ -63,7 +63,7 @@ struct Textbook {
   BOULE_INLINE static V discriminant(const Line<V>& line, const Ball<V>& ball) {
     const Apart<V> f = from_origin(line, ball);
     const V b = all<V>(-2.0F) * dot(f, line.dx, line.dy, line.dz);
-    return multiply_add(b, b, all<V>(4.0F) * line.a * power(f, ball.r));
+    return multiply_add(b, b, all<V>(4.0F) * line.a * power_of_point(f, ball.r));
   }
   BOULE_INLINE static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
     const V b = all<V>(-2.0F) * dot(from_origin(line, ball), line.dx, line.dy, line.dz);
@@ -79,7 +79,7 @@ struct HalfB {
   BOULE_INLINE static V discriminant(const Line<V>& line, const Ball<V>& ball) {
     const Apart<V> f = from_origin(line, ball);
     const V b = dot(f, line.hx, line.hy, line.hz);
-    return multiply_add(b, b, power(f, ball.r));
+    return multiply_add(b, b, power_of_point(f, ball.r));
   }
   BOULE_INLINE static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
     const V b = dot(from_origin(line, ball), line.hx, line.hy, line.hz);
@@ -94,7 +94,7 @@ template <class V>
 BOULE_INLINE Roots<V> stable_roots(const Line<V>& line, const Ball<V>& ball, V d) {
   const Apart<V> f = from_origin(line, ball);
   const V b = dot(f, line.hx, line.hy, line.hz), q = b + with_sign_of(root(d), b);
-  const V other = -power(f, ball.r) / q;
+  const V other = -power_of_point(f, ball.r) / q;
   return {d, least(q, other) * line.inverse_length, most(q, other) * line.inverse_length};
 }
 
@@ -119,11 +119,11 @@ struct Kahan {
   }
   BOULE_INLINE static V discriminant(const Line<V>& line, const Ball<V>& ball) {
     const Apart<V> f = from_origin(line, ball);
-    return difference(dot(f, line.dx, line.dy, line.dz), line.a, -power(f, ball.r));
+    return difference(dot(f, line.dx, line.dy, line.dz), line.a, -power_of_point(f, ball.r));
   }
   BOULE_INLINE static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
     const Apart<V> f = from_origin(line, ball);
-    const V b = dot(f, line.dx, line.dy, line.dz), c = -power(f, ball.r);
+    const V b = dot(f, line.dx, line.dy, line.dz), c = -power_of_point(f, ball.r);
     const V d = difference(b, line.a, c), q = b + with_sign_of(root(d), b);
     const V one = q / line.a, other = c / q;
     return {d, least(one, other), most(one, other)};
@@ -141,7 +141,7 @@ struct ClosestApproach {
     const Apart<V> l = {negated_multiply_add(b, line.hx, f.x),
                         negated_multiply_add(b, line.hy, f.y),
                         negated_multiply_add(b, line.hz, f.z)};
-    return power(l, ball.r);
+    return power_of_point(l, ball.r);
   }
   BOULE_INLINE static Roots<V> roots(const Line<V>& line, const Ball<V>& ball) {
     return stable_roots(line, ball, discriminant(line, ball));

@@ -130,7 +130,8 @@ SphereRuns ShownExtremes::runs(std::vector<SphereMeasure> measures) const {
   return [this, measures = std::move(measures)](const std::function<void(SphereRun)>& function) {
     std::vector<std::vector<Found>> found(measures.size());
     parallel_for_(measures.size(), [&](std::size_t i) {
-      found[i] = measures[i].direction == Vec3d{} ? largest() : Search(*this, measures[i]).find();
+      found[i] =
+          measures[i].direction == Vec3d{} ? largest_spheres() : Search(*this, measures[i]).find();
     });
     if (!scene_.spheres.empty()) function(scene_.spheres);
     for (const std::vector<Found>& of_one : found) visit(of_one, function);
@@ -152,7 +153,7 @@ ShownExtremes::Box ShownExtremes::box_of(std::span<const Sphere> spheres) const 
 }
 
 /// A sphere with the largest radius. Radii keep their order when they are scaled and rounded.
-std::vector<ShownExtremes::Found> ShownExtremes::largest() const {
+std::vector<ShownExtremes::Found> ShownExtremes::largest_spheres() const {
   std::vector<Found> found;
   float radius = 0;
   for (std::uint32_t i = 0; i < shown_.size(); ++i) {

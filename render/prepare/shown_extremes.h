@@ -39,7 +39,7 @@ class ShownExtremes {
   class Search;
 
   [[nodiscard]] Box box_of(std::span<const Sphere> spheres) const;
-  [[nodiscard]] std::vector<Found> largest() const;
+  [[nodiscard]] std::vector<Found> largest_spheres() const;
   void visit(const std::vector<Found>& found, const std::function<void(SphereRun)>& function) const;
 
   const Scene& scene_;

@@ -17,13 +17,13 @@
 namespace boule {
 namespace {
 
-constexpr double largest = std::numeric_limits<double>::max();
+constexpr double largest_number = std::numeric_limits<double>::max();
 
 /// The `count` finite numbers, with commas between them, that the text consists of.
 std::optional<std::vector<double>> parse_numbers(const std::string& text, std::size_t count) {
   std::vector<double> numbers;
   for (const std::string& part : split(text, ',')) {
-    const auto number = parse_number(part, -largest, largest);
+    const auto number = parse_number(part, -largest_number, largest_number);
     if (!number) return std::nullopt;
     numbers.push_back(*number);
   }
@@ -61,7 +61,7 @@ std::string first_hint(const std::vector<std::string>& colors) {
 }  // namespace
 
 std::optional<double> parse_above_0(const std::string& text) {
-  return parse_number(text, std::numeric_limits<double>::min(), largest);
+  return parse_number(text, std::numeric_limits<double>::min(), largest_number);
 }
 
 std::optional<std::string> parse_particle_format(const std::string& text) {
