@@ -1,4 +1,7 @@
 // Camera rays of every kernel table against the scalar path, bit for bit.
+#include <type_traits>
+#include <variant>
+
 #include "core/optics/camera_builder.h"
 #include "tests/support/camera_samples.h"
 #include "tests/support/kernel_runs.h"
@@ -42,6 +45,25 @@ TEST_P(PrimaryRays, EqualTheScalarPath) {
   expect_same(*kernels, FisheyeCamera{pose, 360, FovAxis::x}, 640, 361);
   expect_same(*kernels, FisheyeCamera{pose, 100, FovAxis::y}, 640, 361);
   expect_same(*kernels, ThinLensCamera{pose, 45, FovAxis::x, 0.3F, 2.5F}, 640, 361);
+}
+
+/// Calls visit(camera) with each kind of camera that needs no file, as it is by default.
+template <class Visitor, class... Kinds>
+void each_kind(const CameraPose& pose, const std::variant<Kinds...>&, const Visitor& visit) {
+  const auto visit_one = [&]<class Kind>(Kind camera) {
+    camera.pose = pose;
+    if constexpr (!std::is_same_v<Kind, LensCamera>) visit(camera);
+  };
+  (visit_one(Kinds{}), ...);
+}
+
+TEST_P(PrimaryRays, OfEveryKindEqualTheScalarPath) {
+  const CameraPose pose{{2.1F, 1.3F, 1.7F}, {0.1F, -0.2F, 0.3F}, {0, 0, 1}};
+  const DistortionMap map = random_map(7, 5, 0.1);
+  each_kind(pose, Camera{}, [&](const Camera& camera) {
+    expect_same(*kernels, camera, 640, 361);
+    expect_same(*kernels, camera, 640, 361, &map);
+  });
 }
 
 TEST_P(PrimaryRays, EqualTheScalarPathThroughAMap) {

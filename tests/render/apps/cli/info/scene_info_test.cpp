@@ -17,7 +17,7 @@
 #include <variant>
 #include <vector>
 
-#include "tests/render/apps/cli/particles/made_fields.h"
+#include "tests/render/apps/cli/info/made_fields.h"
 #include "tests/render/npy_files.h"
 #include "tests/support/temp_dir.h"
 
@@ -186,8 +186,20 @@ struct MadeKinds<std::variant<Types...>> {
   }
 };
 
+/// The settings of a section; those that are not changed are left out.
+template <class Settings>
+Kind settings_kind(const std::vector<Field>& besides = {}) {
+  FieldMaker maker;
+  maker.add_all<Settings>();
+  for (Field& field : maker.fields) field.value.clear();
+  maker.fields.insert(maker.fields.end(), besides.begin(), besides.end());
+  const std::string name(boule::fields<Settings>.type);
+  return {.name = name, .before = {}, .header = "[" + name + "]", .fields = maker.fields};
+}
+
 std::vector<Kind> made_kinds() {
-  std::vector<Kind> kinds;
+  std::vector<Kind> kinds{settings_kind<ImageSettings>({{"size", "[32, 18]", "[18, 32]"}}),
+                          settings_kind<RenderSettings>()};
   MadeKinds<Camera>{"[camera]", {distortion}, {"fit", "key", "f_number", "focal_length"}}.add_to(
       kinds);
   MadeKinds<Background>{"[background]", {ambient, backdrop}}.add_to(kinds);
@@ -203,23 +215,6 @@ const Kind kinds[] = {
      {{"origin", "[0, 0, 0]", "[1, 0, 0]"}},
      {"schema", "image", "camera", "background", "render", "material", "light", "sphere", "spheres",
       "packed", "particles", "plane", "capsule", "capsules", "group", "instance"}},
-    {"image",
-     "",
-     "[image]",
-     {{"size", "[32, 18]", "[18, 32]"},
-      {"spp", "1", "2"},
-      {"filter", "\"box\"", "\"tent\""},
-      {"transparent", "false", "true"},
-      {"outline", "0", "1.5"}}},
-    {"render",
-     "",
-     "[render]",
-     {{"method", "\"whitted\"", "\"path\""},
-      {"max_depth", "5", "6"},
-      {"noise", "0", "0.5"},
-      {"min_spp", "32", "16"},
-      {"aa", "0", "8"},
-      {"least_weight", "0", "0.001"}}},
     {"fitted",
      "[[sphere]]\n[[sphere]]\ncenter = [2, 1, 0]\n",
      "[camera]\nfit = true",

@@ -38,7 +38,7 @@ class FieldMaker {
     }
   }
   template <class Owner, class Member, class Rule>
-  void add_field(const PairField<Owner, Member, Rule>&) {}  // from files
+  void add_field(const PairField<Owner, Member, Rule>&) {}  // by hand
 
   void add(std::string key, const NumberRule& rule, std::type_identity<float>) {
     const double low = std::isfinite(rule.low) ? rule.low : 0;
@@ -57,6 +57,12 @@ class FieldMaker {
   template <class Rule>
   void add(std::string key, const Rule&, std::type_identity<Color>) {
     fields.push_back({std::move(key), "[0.1, 0.2, 0.3]", "[0.1, 0.2, 0.4]"});
+  }
+  void add(std::string key, const WholeRule& rule, std::type_identity<int>) {
+    fields.push_back({std::move(key), std::to_string(rule.low), std::to_string(rule.low + 1)});
+  }
+  void add(std::string key, const TypeRule&, std::type_identity<bool>) {
+    fields.push_back({std::move(key), "false", "true"});
   }
   template <class Enum>
   requires std::is_enum_v<Enum>
