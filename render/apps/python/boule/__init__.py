@@ -13,39 +13,13 @@ You may call all functions from any thread; they give way to other threads of Py
 Ctrl-C ends every call within a tenth of a second.
 """
 
+from . import _objects
 from ._camera import Rays
 from ._core import Error as Error
 from ._core import Picture as Picture
 from ._core import isa as isa
 from ._core import version as __version__
-from ._objects import (
-    Capsule,
-    ConstantBackground,
-    DirectionalLight,
-    Distortion,
-    Emissive,
-    EnvironmentBackground,
-    Fisheye,
-    Fit,
-    Glass,
-    GradientBackground,
-    ImageSettings,
-    Instance,
-    Lens,
-    Matte,
-    Metal,
-    Orthographic,
-    Particles,
-    Phong,
-    Pinhole,
-    Plane,
-    Plastic,
-    PointLight,
-    RenderSettings,
-    Sphere,
-    SphereLight,
-    ThinLens,
-)
+from ._objects import *  # noqa: F403
 from ._pickling import install as _install
 from ._rendering import Interrupted, render
 from ._scene import Capsules, Group, Scene, Spheres
@@ -57,46 +31,21 @@ _install()
 del _install
 
 __all__ = [
-    "Capsule",
+    *_objects.__all__,
     "Capsules",
     "Chords",
-    "ConstantBackground",
     "Crossings",
-    "DirectionalLight",
-    "Distortion",
-    "Emissive",
-    "EnvironmentBackground",
     "Error",
-    "Fisheye",
-    "Fit",
-    "Glass",
-    "GradientBackground",
     "Group",
     "Hits",
-    "ImageSettings",
-    "Instance",
     "Interrupted",
-    "Lens",
-    "Matte",
     "Members",
-    "Metal",
     "Nearest",
-    "Orthographic",
     "Pairs",
-    "Particles",
-    "Phong",
     "Picture",
-    "Pinhole",
-    "Plane",
-    "Plastic",
-    "PointLight",
     "Rays",
-    "RenderSettings",
     "Scene",
-    "Sphere",
-    "SphereLight",
     "Spheres",
-    "ThinLens",
     "Tracer",
     "View",
     "__version__",

@@ -16,11 +16,9 @@ from . import _core
 _FIELDS = _core.fields()
 # Keys that stand for a field in another way, or that the table has besides its fields.
 _MORE = {
-    "pinhole": ("distortion", "key"),
-    "orthographic": ("distortion", "key"),
-    "fisheye": ("distortion", "key"),
-    "thin_lens": ("f_number", "focal_length", "distortion", "key"),
-    "lens": ("surfaces", "f_number", "distortion", "key"),
+    "camera": ("distortion", "key"),  # of all kinds
+    "thin_lens": ("f_number", "focal_length"),
+    "lens": ("surfaces", "f_number"),
     "environment": ("pixels",),
     "distortion": ("st",),
     "fit": ("distortion",),
@@ -43,9 +41,7 @@ _ARRAYS = {
 }
 # Keys without which there is no such object, and what is said of them.
 _REQUIRED = {
-    "pinhole": (("eye", "look_at"), "eye and look_at, each here or in key"),
-    "orthographic": (("eye", "look_at"), "eye and look_at, each here or in key"),
-    "fisheye": (("eye", "look_at"), "eye and look_at, each here or in key"),
+    "camera": (("eye", "look_at"), "eye and look_at, each here or in key"),
     "thin_lens": (
         ("eye", "look_at", "aperture"),
         "eye, look_at and aperture, each here or in key; or f_number with focal_length in place "
@@ -183,17 +179,22 @@ def _defaults_of(kind, type_name):
         if name == "size" and of_file:
             continue  # that of the file
         defaults[name] = default
-    for name in _MORE.get(type_name, ()):
+    for name in (*_MORE.get(type_name, ()), *(_MORE["camera"] if kind == "camera" else ())):
         defaults.setdefault(name, None)
-    for name in _REQUIRED.get(type_name, ((),))[0]:
+    for name in _required(kind, type_name)[0]:
         defaults[name] = None
     return defaults
+
+
+def _required(kind, type_name):
+    """The keys without which there is no such object, and what is said of them."""
+    return _REQUIRED.get(type_name) or _REQUIRED.get(kind, ((), ""))
 
 
 def _fill(cls, kind, type_name, type_key):
     """Gives a class its keys."""
     defaults = _defaults_of(kind, type_name)
-    required, told = _REQUIRED.get(type_name, ((), ""))
+    required, told = _required(kind, type_name)
     cls._kind = "camera" if kind == "fit" else kind
     cls._type = type_name if type_key else ""
     cls._defaults = defaults
@@ -365,3 +366,6 @@ class Instance(Table):
 @_of("particles", "particles", type_key=False)
 class Particles(Table):
     """The particles of a file, as [[particles]] of a scene file reads them."""
+
+
+__all__ = [name for name, one in list(globals().items()) if getattr(one, "_kind", "")]

@@ -36,7 +36,7 @@ def test_every_listed_type_has_a_class():
 def test_arguments_are_the_fields_with_their_defaults(cls):
     kind = "fit" if cls is boule.Fit else cls._kind
     arguments = inspect.signature(cls.__init__).parameters
-    required, _ = _objects._REQUIRED.get(cls._type or kind, ((), ""))  # see test_objects.py
+    required, _ = _objects._required(kind, cls._type or kind)  # see test_objects.py
     for name, default, of_file in FIELDS.get(kind, {}).get(cls._type or kind, []):
         if of_file and name == "size":
             continue
