@@ -7,7 +7,7 @@ set -euo pipefail
 # clang: the compiler that is taken where it is there; g++ brings its standard library.
 readonly build_packages=(cmake clang g++ ninja-build libxsimd-dev libopenimageio-dev openimageio-tools
   libcli11-dev libfast-float-dev libtomlplusplus-dev nlohmann-json3-dev libfmt-dev libzip-dev libzstd-dev zlib1g-dev libbz2-dev liblzma-dev
-  gemmi-dev tao-pegtl-dev libboost-dev libpango1.0-dev libpng-dev libturbojpeg0-dev libxxhash-dev lowdown)
+  gemmi-dev tao-pegtl-dev libboost-dev libhdf5-dev libpango1.0-dev libpng-dev libturbojpeg0-dev libxxhash-dev lowdown)
 # libclang-rt-14-dev: libFuzzer and the sanitizers. lammps-examples: particle files by others.
 # chromium-driver, python3-selenium: the pages, driven in a browser.
 # libopenmpi-dev, libmpich-dev: ranks that work together; the program needs neither.
@@ -15,10 +15,10 @@ readonly build_packages=(cmake clang g++ ninja-build libxsimd-dev libopenimageio
 # doxygen, python3-sphinx: the pages of the target `reference`.
 readonly test_packages=(bash-completion binutils chromium-driver clang-format clang-tidy doxygen fish libclang-rt-14-dev libgmock-dev
   libgtest-dev lammps-examples libmpfr-dev libmpich-dev libopenmpi-dev librapidcheck-dev man-db
-  mandoc mpich openmpi-bin pkg-config python3-ase python3-gemmi python3-selenium qemu-user zsh)
+  mandoc mpich openmpi-bin pkg-config python3-ase python3-gemmi python3-h5py python3-selenium qemu-user zsh)
 # For the package boule, and what its tests hold it against.
 readonly python_packages=(python3-dev python3-numpy python3-pybind11 pybind11-dev)
-readonly python_test_packages=(mypy python3-ase python3-h5py python3-ipykernel python3-matplotlib python3-mdanalysis
+readonly python_test_packages=(mypy python3-ase python3-ipykernel python3-matplotlib python3-mdanalysis
   python3-nbclient python3-pytest python3-sphinx)
 readonly bench_packages=(libbenchmark-dev libembree-dev libmpfr-dev python3-matplotlib)
 readonly wheel_packages=(binutils patchelf python3-pip python3-setuptools python3-wheel)

@@ -45,10 +45,11 @@ class CMakeBuild(build_ext):
             target = ROOT / "render" / "apps" / "python" / "boule"
         sources = shutil.ignore_patterns("*.py*") if self.inplace else None  # there already
         shutil.copytree(build / "boule", target, dirs_exist_ok=True, ignore=sources)
-        # Pictures are read and written by this module, which is looked for beside the package's own.
-        shutil.copy2(build / "bin" / "boule_image_io.so", target)
-        for overlay in (build / "bin").glob("boule_overlay.so"):  # where pango was there
-            shutil.copy2(overlay, target)
+        # What is loaded on first use is looked for beside the package's own library. Those of MPI
+        # are the program's.
+        for name in ("image_io", "overlay", "hdf5"):
+            for module in (build / "bin").glob(f"boule_{name}.so"):  # where its library was there
+                shutil.copy2(module, target)
         (target / "bin").mkdir(exist_ok=True)
         shutil.copy2(build / "bin" / "boule", target / "bin")
 

@@ -90,7 +90,7 @@ def main():
         unpacked = work / "unpacked"
         with zipfile.ZipFile(next(work.glob("*.whl"))) as archive:
             archive.extractall(unpacked)
-        for module in (unpacked / "boule").glob("boule_*.so"):  # OpenImageIO, pango: the system's, if any
+        for module in (unpacked / "boule").glob("boule_*.so"):  # OpenImageIO, pango, HDF5: the system's, if any
             module.unlink()
         program = unpacked / "boule" / "bin" / "boule"
         program.chmod(0o755)

@@ -101,17 +101,13 @@ Result<void*> load_from_module(const std::string& module, std::string_view mark,
 
 Result<const image_module::Table*> open_image_module() {
   using image_module::Table;
-  constexpr const char* module = "boule_image_io.so";
-  const auto entry =
-      load_from_module(module, image_module::version_mark, image_module::entry_point);
-  if (!entry) {
-    return Diagnostic::of(entry.error().message +
-                          "; formats other than PNG and PPM need it, and OpenImageIO: Debian's "
-                          "package boule-image-formats has both");
-  }
-  const auto* const table = reinterpret_cast<const Table* (*)()>(entry.value())();
-  if (table == nullptr || table->version != image_module::version) return of_other_version(module);
-  return table;
+  auto table = open_module<Table>("boule_image_io.so", image_module::version_mark,
+                                  image_module::entry_point, image_module::version);
+  if (table) return table;
+  return Diagnostic::of(table.error().message +
+                        "; formats other than PNG and PPM need it, and OpenImageIO: Debian's "
+                        "package " +
+                        modules_package + " has both");
 }
 
 }  // namespace boule

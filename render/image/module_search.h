@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -22,6 +23,21 @@ std::vector<std::filesystem::path> module_folders(const std::filesystem::path& o
 /// Diagnostic names the folders, or gives the system's error.
 Result<void*> load_from_module(const std::string& module, std::string_view mark,
                                const char* symbol);
+
+/// Debian's package that has the modules, but for those of MPI.
+inline constexpr const char* modules_package = "boule-image-formats";
+
+/// The table of a module, by a function of this name that returns it; an error if the module is of
+/// another version.
+template <class Table>
+Result<const Table*> open_module(const std::string& module, std::string_view mark,
+                                 const char* entry_point, std::uint32_t version) {
+  const auto entry = load_from_module(module, mark, entry_point);
+  if (!entry) return entry.error();
+  const auto* const table = reinterpret_cast<const Table* (*)()>(entry.value())();
+  if (table != nullptr && table->version == version) return table;
+  return Diagnostic::of(module + ": made for another version of boule");
+}
 
 /// The table of the image module.
 Result<const image_module::Table*> open_image_module();

@@ -35,7 +35,7 @@ BEGIN {
 
   # The wing of files: nothing of apps, and of the engine what says how much memory there is, and pictures.
   layer("^render/files/file/", "^(core|render/(memory|files/file))/", any)
-  layer("^render/files/particle_file/", "^(core|render/(memory|files/(file|particle_file)))/", any)
+  layer("^render/files/particle_file/", "^(core|render/(memory|files/(file|particle_file)))/|^render/image/module_search\\.h$", any)
   layer("^render/files/particles/", "^(core|render/(memory|files/(file|particle_file|particles)))/", any)
   layer("^render/files/packed/", narrow "|^render/(memory|files/(file|packed))/|^render/image/output_file\\.h$", any)
   # Scenes name pictures: their reader returns plain numbers, which core can hold.
@@ -74,6 +74,7 @@ BEGIN {
   owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|module_writer\\.(h|cpp)|descriptor_proxy\\.h)$", "OpenImageIO")
   owner("#include <png\\.h>", "^render/image/png_table\\.cpp$", "libpng")
   owner("#include <(pango|cairo)", "^render/apps/job/overlay/overlay_module\\.cpp$", "cairo and pango")
+  owner("#include <hdf5", "^render/files/particle_file/hdf5/hdf5_values\\.h$", "libhdf5")
   owner("#include <boost/", "^render/apps/view/server/web_server\\.cpp$", "Boost")
   owner("#include <turbojpeg", "^render/apps/view/panes/jpeg\\.cpp$", "libjpeg-turbo")
   owner("#include <pybind11/|#include <Python\\.h>", "^render/apps/python/", "Python")

@@ -21,7 +21,8 @@ ParticleFileOptions options_of(std::uint8_t byte) {
   ParticleFileOptions options;
   const std::size_t format = byte % 16U % (formats.size() + 1);
   if (format > 0) options.format = formats[format - 1];
-  if (options.format == "library") options.format.clear();  // it would start Python each time
+  // Python would start each time; libhdf5 is not ours.
+  if (options.format == "library" || options.format == "hdf5") options.format.clear();
   if ((byte & 16) != 0) options.wanted = std::vector<std::string>{"radius", "name", "vx"};
   if ((byte & 32) != 0) options.columns = {"id", "type", "x", "y", "z"};
   options.water = (byte & 64) != 0;

@@ -36,14 +36,12 @@ class MpiPost : public Post {
 }  // namespace
 
 Result<std::unique_ptr<Post>> open_mpi_post(const std::string& module) {
-  const auto entry = load_from_module(module, mpi_module::version_mark, mpi_module::entry_point);
-  if (!entry) return entry.error();
-  const auto* const table = reinterpret_cast<const Table* (*)()>(entry.value())();
-  if (table == nullptr || table->version != mpi_module::version)
-    return Diagnostic::of(module + ": made for another version of boule");
+  const auto table = open_module<Table>(module, mpi_module::version_mark, mpi_module::entry_point,
+                                        mpi_module::version);
+  if (!table) return table.error();
   int rank = 0, size = 1;
-  if (!table->start(&rank, &size)) return Diagnostic::of("MPI does not start");
-  return std::unique_ptr<Post>(std::make_unique<MpiPost>(*table, rank, size));
+  if (!table.value()->start(&rank, &size)) return Diagnostic::of("MPI does not start");
+  return std::unique_ptr<Post>(std::make_unique<MpiPost>(*table.value(), rank, size));
 }
 
 }  // namespace boule

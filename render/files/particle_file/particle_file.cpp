@@ -76,6 +76,14 @@ const ParticleFormat* format_of_prefix(std::string_view name) {
   return nullptr;
 }
 
+/// Whether the format that is requested, else that of the name's ending, reads files itself: then
+/// nobody else need look into them.
+bool is_read_elsewhere(const std::string& path, const std::string& requested) {
+  const ParticleFormat* const format =
+      requested.empty() ? format_of_ending(bare_name(path)) : format_of_name(requested);
+  return format != nullptr && format->open_file != nullptr;
+}
+
 /// What reads the file, by the request, else its name, else its content.
 Result<const ParticleFormat*> find_format(const std::string& path, std::string_view text,
                                           const std::string& requested) {
@@ -108,6 +116,13 @@ Status check_columns(const std::vector<std::string>& columns, const ParticleForm
   const auto repeated = find_repeated(columns);
   if (!repeated) return {};
   return Diagnostic::about("columns", "two columns have the name " + quote(*repeated));
+}
+
+/// No bytes, or an error if there is no such file.
+Result<MappedText> open_without_bytes(const std::string& path) {
+  const auto file = InputFile::open(path);
+  if (!file) return file.error();
+  return MappedText::of({});
 }
 
 Result<MappedText> open_bytes(const std::string& path) {
@@ -221,7 +236,8 @@ ParticleFile ParticleFile::of(std::vector<ParticleFrame> frames) {
 Result<ParticleFile> ParticleFile::open(const std::string& path, const ParticleFileOptions& options,
                                         const ParallelFor& parallel_for) {
   const FloatEnvironment environment;
-  auto bytes = open_bytes(path);
+  auto bytes =
+      is_read_elsewhere(path, options.format) ? open_without_bytes(path) : open_bytes(path);
   if (!bytes) return bytes.error();
   const auto format = find_format(path, bytes.value().text(), options.format);
   if (!format) return in_file(format.error(), path);
@@ -252,6 +268,14 @@ std::string ParticleFile::cut_text() const {
          std::to_string(whole.error().line) + ": " + whole.error().message + ")";
 }
 
+Result<std::unique_ptr<FrameParts>> ParticleFile::parts(std::size_t frame) {
+  if (topology_) return std::unique_ptr<FrameParts>();
+  const FloatEnvironment environment;
+  auto parts = reader_->parts(frame);
+  if (!parts) return in_file(parts.error(), path_);
+  return parts;
+}
+
 Result<ParticleFrame> ParticleFile::read(long frame, const ParallelFor& parallel_for) {
   const FloatEnvironment environment;
   const auto count = static_cast<long>(frames());
@@ -268,7 +292,8 @@ Result<ParticleFrame> ParticleFile::read(long frame, const ParallelFor& parallel
   if (!read) return in_file(read.error(), path_);
   if (topology_) {
     if (auto done = add_topology(*topology_, read.value()); !done) return done.error();
-  } else if (format_ == library_format.name && !read.value().species) {
+  } else if (!read.value().species &&
+             (format_ == library_format.name || format_ == hdf5_format.name)) {
     read.value().notes.emplace_back(
         "the file does not tell kinds of particles: --topology names a file that does");
   }

@@ -45,6 +45,10 @@ class ParticleFile {
   /// such frame. Where the file was cut off behind its whole frames, a note says so.
   Result<ParticleFrame> read(long frame = -1, const ParallelFor& parallel_for = serial_for);
 
+  /// A frame part by part, which this object outlives; null if it is read as a whole only: by its
+  /// format, or because a topology has a part in it. Precondition: frame < frames().
+  Result<std::unique_ptr<FrameParts>> parts(std::size_t frame);
+
   /// The name of the format that was found.
   [[nodiscard]] std::string_view format() const { return format_; }
 

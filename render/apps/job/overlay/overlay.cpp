@@ -19,21 +19,17 @@ namespace {
 using overlay_module::Table;
 
 Diagnostic no_overlay(const std::string& reason) {
-  return Diagnostic::of("cannot draw on pictures: " + reason +
-                        "; Debian's package boule-image-formats has it; a build has it if "
-                        "libpango1.0-dev is there, and "
-                        "needs libpangocairo-1.0-0");
+  return Diagnostic::of("cannot draw on pictures: " + reason + "; Debian's package " +
+                        modules_package +
+                        " has it; a build has it if libpango1.0-dev is there, and needs "
+                        "libpangocairo-1.0-0");
 }
 
 Result<const Table*> open_table() {
-  constexpr const char* module = "boule_overlay.so";
-  const auto entry =
-      load_from_module(module, overlay_module::version_mark, overlay_module::entry_point);
-  if (!entry) return no_overlay(entry.error().message);
-  const auto* const table = reinterpret_cast<const Table* (*)()>(entry.value())();
-  if (table == nullptr || table->version != overlay_module::version)
-    return no_overlay(std::string(module) + ": made for another version of boule");
-  return table;
+  auto table = open_module<Table>("boule_overlay.so", overlay_module::version_mark,
+                                  overlay_module::entry_point, overlay_module::version);
+  if (table) return table;
+  return no_overlay(table.error().message);
 }
 
 /// A picture in 8 bits, and what is drawn on it.

@@ -56,7 +56,6 @@ psf               | a PSF topology             | MDAnalysis | PSF
 prmtop parm7 top  | an Amber topology          | MDAnalysis | PRMTOP
 tpr               | a TPR topology             | MDAnalysis | TPR
 gsd               | a GSD trajectory           | gsd        | -
-h5md h5 hdf5      | a file of HDF5             | h5py       | -
 vtk               | a VTK file                 | vtk meshio | vtk
 vtu               | a VTK file                 | vtk meshio | vtu
 vtp               | a VTK file                 | vtk        | -
@@ -84,7 +83,6 @@ PACKAGES = {
     "MDAnalysis": ("python3-mdanalysis", "MDAnalysis"),
     "ase": ("python3-ase", "ase"),
     "gsd": ("python3-gsd", "gsd"),
-    "h5py": ("python3-h5py", "h5py"),
     "meshio": ("python3-meshio", "meshio"),
     "vtk": ("python3-vtk9", "vtk"),
 }
@@ -290,179 +288,6 @@ class ByGSD:
         return frame
 
 
-def by_h5py(h5py, path, _form, _count):
-    """Which family a file of HDF5 is of, its groups tell."""
-    file = h5py.File(path, "r")
-    if any(f"PartType{i}" in file for i in range(7)):
-        return BySnapshot(file)
-    return ByOpenPMD(file) if "openPMD" in file.attrs else ByH5MD(h5py, file)
-
-
-class BySnapshot:
-    """GADGET and its family: AREPO, SWIFT, GIZMO. All types of particles, in their order."""
-
-    frames = 1
-    NAMES = {0: "gas", 1: "halo", 2: "disk", 3: "bulge", 4: "stars", 5: "black holes", 6: "neutrinos"}
-
-    def __init__(self, file):
-        self.file = file
-        self.groups = [(i, file[f"PartType{i}"]) for i in range(7) if f"PartType{i}" in file]
-        self.groups = [(i, group) for i, group in self.groups if "Coordinates" in group]
-        if not self.groups:
-            raise Failure("no PartType of it has Coordinates")
-
-    def read(self, _number):
-        counts = [len(group["Coordinates"]) for _, group in self.groups]
-        places = numpy.empty((sum(counts), 3))
-        for (_, group), end in zip(self.groups, numpy.cumsum(counts)):
-            group["Coordinates"].read_direct(places[end - len(group["Coordinates"]) : end])
-        frame = Frame(places)
-        index = numpy.repeat(numpy.arange(len(counts)), counts)
-        frame.species = ("type", ([self.NAMES[i] for i, _ in self.groups], index))
-        header = self.file["Header"].attrs if "Header" in self.file else {}
-        box = numpy.ravel(header.get("BoxSize", 0.0))
-        frame.set_cell(numpy.diag(numpy.broadcast_to(box, 3) if len(box) in (1, 3) else [0.0] * 3))
-        if "Time" in header:
-            frame.time = float(numpy.ravel(header["Time"])[0])
-        parts = int(numpy.ravel(header.get("NumFilesPerSnapshot", 1))[0])
-        if parts > 1:
-            frame.notes.append(f"this file is one of {parts} of its snapshot")
-        for name in dict.fromkeys(name for _, group in self.groups for name in group):
-            self.add_field(frame, name, counts)
-        return frame
-
-    def add_field(self, frame, name, counts):
-        """Types that lack a field have no number there."""
-        fields = [group.get(name) for _, group in self.groups]
-        first = next((one for one in fields if hasattr(one, "dtype")), None)
-        if name == "Coordinates" or first is None or first.dtype.kind not in "biuf":
-            return
-        named = {"ParticleIDs": "id", "Masses": "mass"}.get(name, name)
-        if not frame.is_asked(named, first.shape):
-            return
-        shape, values = first.shape[1:], []
-        for field, count in zip(fields, counts):
-            is_there = hasattr(field, "dtype") and field.shape == (count, *shape)
-            values.append(field[()] if is_there else numpy.full((count, *shape), numpy.nan))
-        frame.add(named, numpy.concatenate(values))
-
-
-class ByOpenPMD:
-    """All species of particles; steps are frames. Lengths in the unit of the positions."""
-
-    def __init__(self, file):
-        path = file.attrs.get("particlesPath", b"particles/")
-        self.path = (path.decode() if isinstance(path, bytes) else str(path)).strip("/")
-        steps = file["data"] if "data" in file else {}
-        self.steps = [steps[name] for name in sorted(steps, key=int) if self.path in steps[name]]
-        self.frames = len(self.steps)
-        if not self.steps:
-            raise Failure("it has no particles of openPMD")
-
-    def values(self, record, count):
-        """A component of a record: numbers, or one for all."""
-        return record[()] if hasattr(record, "dtype") else numpy.full(count, record.attrs["value"])
-
-    def places(self, group):
-        """Positions and the offsets of their cells, in the unit of the positions."""
-        position, offset = group["position"], group.get("positionOffset")
-        axes = [axis for axis in "xyz" if axis in position]
-        shape = position[axes[0]]
-        count = len(shape) if hasattr(shape, "dtype") else int(shape.attrs["shape"][0])
-        places = numpy.zeros((count, 3))
-        for axis in axes:
-            places[:, "xyz".index(axis)] = self.values(position[axis], count)
-            if offset is not None and axis in offset:
-                scale = offset[axis].attrs.get("unitSI", 1.0) / position[axis].attrs.get("unitSI", 1.0)
-                places[:, "xyz".index(axis)] += self.values(offset[axis], count) * scale
-        return places
-
-    def read(self, number):
-        step = self.steps[number]
-        groups = [(name, one) for name, one in step[self.path].items() if "position" in one]
-        places = [self.places(group) for _, group in groups]
-        frame = Frame(numpy.concatenate(places) if places else numpy.zeros((0, 3)))
-        counts = [len(one) for one in places]
-        index = numpy.repeat(numpy.arange(len(counts)), counts)
-        frame.species = ("species", ([name for name, _ in groups], index))
-        if "time" in step.attrs:
-            frame.time = float(step.attrs["time"]) * float(step.attrs.get("timeUnitSI", 1.0))
-        for name in dict.fromkeys(name for _, group in groups for name in group):
-            records = [group.get(name) for _, group in groups]
-            if not name.startswith(("position", "particlePatches")):
-                self.add_record(frame, name, records, counts)
-        return frame
-
-    def add_record(self, frame, name, records, counts):
-        """Species that lack it have no number there."""
-        parts = [one for one in records if one is not None]
-        axes = [axis for axis in "xyz" if any(axis in one for one in parts if hasattr(one, "keys"))]
-        for axis in axes or [""]:
-            named = f"{name}_{axis}" if axis else name
-            if not frame.is_asked(named, (frame.count,)):
-                continue
-            ones = [one[axis] if axis and one is not None and axis in one else one for one in records]
-            frame.add(named, numpy.concatenate([
-                numpy.full(count, numpy.nan) if one is None else self.values(one, count)
-                for one, count in zip(ones, counts)]))  # fmt: skip
-
-
-class ByH5MD:
-    """The first group of particles that has positions."""
-
-    def __init__(self, h5py, file):
-        self.h5py, self.file, self.note = h5py, file, None
-        groups = [one for one in self.file.get("particles", {}).items() if "position" in one[1]]
-        if not groups:
-            raise Failure("it lacks the groups of H5MD (particles/NAME/position), GADGET and openPMD")
-        self.group = groups[0][1]
-        if len(groups) > 1:
-            self.note = f"{groups[0][0]} is shown, the first of {len(groups)} groups of particles"
-        position = self.group["position"]
-        self.moves = hasattr(position, "keys")
-        self.frames = len(position["value"]) if self.moves else 1
-
-    def value(self, element, number):
-        """An element of a group: at every step ("value"), or fixed."""
-        return element["value"][number] if hasattr(element, "keys") else element[()]
-
-    def read(self, number):
-        position = self.group["position"]
-        frame = Frame(self.value(position, number))
-        frame.notes += [self.note] if self.note else []
-        unit = (position["value"] if self.moves else position).attrs.get("unit", b"")
-        unit = unit.decode() if isinstance(unit, bytes) else str(unit)
-        frame.angstrom = {"nm": 10.0, "pm": 0.01}.get(unit, 1.0)
-        if self.moves and "time" in position and position["time"].ndim == 1:
-            frame.time = float(position["time"][number])
-        if "edges" in self.group.get("box", {}):
-            edges = self.value(self.group["box/edges"], number)
-            boundary = self.group["box"].attrs.get("boundary", ["periodic"] * 3)
-            if frame.positions.shape[1:] == (3,):
-                frame.set_cell(numpy.diag(edges) if edges.ndim == 1 else edges,
-                               [one in (b"periodic", "periodic") for one in boundary])  # fmt: skip
-        for name, element in self.group.items():
-            if name not in ("position", "box"):
-                self.add_element(frame, name, element, number)
-        return frame
-
-    def add_element(self, frame, name, element, number):
-        data = element.get("value") if hasattr(element, "keys") else element
-        if not isinstance(data, self.h5py.Dataset):
-            return
-        names = {code: text for text, code in (self.h5py.check_enum_dtype(data.dtype) or {}).items()}
-        are_numbers = data.dtype.kind in "biuf" and not names and name != "species"
-        if are_numbers and not frame.is_asked(name, data.shape[hasattr(element, "keys") :]):
-            return
-        values = self.value(element, number)
-        if names and values.ndim == 1:
-            values = numpy.array([names.get(code, str(code)) for code in values.tolist()])
-        if name == "species" and values.shape == (frame.count,):
-            frame.species = ("species", values.astype(str) if values.dtype.kind in "iu" else values)
-        else:
-            frame.add(name, values)
-
-
 class ByPoints:
     """Points with data, by VTK or meshio: read(path, form) returns both."""
 
@@ -511,7 +336,7 @@ def by_vtk(vtk, path, form, _count):
     return ByPoints(vtk_to_numpy(points.GetData()), named)
 
 
-READERS = {"MDAnalysis": ByMDAnalysis, "ase": ByASE, "gsd": ByGSD, "h5py": by_h5py,
+READERS = {"MDAnalysis": ByMDAnalysis, "ase": ByASE, "gsd": ByGSD,
            "meshio": by_meshio, "vtk": by_vtk}  # fmt: skip
 
 

@@ -1,7 +1,5 @@
 #include "render/files/particle_file/bridge/bridge_reader.h"
 
-#include <cstdint>
-#include <map>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -36,41 +34,6 @@ std::vector<std::string_view> names_in_table() {
   return names;
 }
 
-/// Elements by the names of atoms and of their residues, where the file has names.
-void guess_species(ParticleFrame& frame) {
-  const TextColumn* const names = find_text_column(frame, "name");
-  const TextColumn* const residues = find_text_column(frame, "resname");
-  if (names == nullptr) return;
-  TextColumn species{"element", {}, std::vector<std::uint32_t>(frame.size())};
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
-  std::map<std::string_view, std::uint32_t> elements;
-  for (std::size_t i = 0; i < frame.size(); ++i) {
-    const std::uint32_t name = names->indices[i];
-    const std::uint32_t residue = residues != nullptr ? residues->indices[i] : 0;
-    const auto [found, is_new] = known.try_emplace({name, residue}, 0);
-    if (is_new) {
-      const std::string_view element = element_of_atom(
-          names->texts[name], residues != nullptr ? residues->texts[residue] : std::string());
-      const auto next = static_cast<std::uint32_t>(species.texts.size());
-      const auto [place, is_first] = elements.try_emplace(element, next);
-      if (is_first) species.texts.emplace_back(element);
-      found->second = place->second;
-    }
-    species.indices[i] = found->second;
-  }
-  frame.species = std::move(species);
-  frame.notes.emplace_back(elements_are_guessed);
-}
-
-/// Moves the names of texts that nobody asked for to the list of those.
-void leave_out_unwanted(const ParticleFileOptions& options, ParticleFrame& frame) {
-  std::erase_if(frame.texts, [&](const TextColumn& column) {
-    if (is_wanted(options.wanted, column.name)) return false;
-    frame.unread.push_back(column.name);
-    return true;
-  });
-}
-
 class BridgeReader final : public ParticleReader {
  public:
   BridgeReader(std::unique_ptr<ChildProcess> process, BridgeHead head, ParticleFileOptions options)
@@ -89,7 +52,7 @@ class BridgeReader final : public ParticleReader {
     if (!answer.value) return answer.value.error();
     ParticleFrame read = std::move(answer.value).value();
     if (!read.species) guess_species(read);
-    leave_out_unwanted(options_, read);
+    leave_out_unwanted(options_.wanted, read);
     read.notes.push_back("read by " + head_.library);
     return read;
   }

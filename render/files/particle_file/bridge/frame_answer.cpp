@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/base/text.h"
-#include "core/math/geometry.h"
+#include "render/files/particle_file/frame/frame_check.h"
 #include "render/files/particle_file/text/text_number.h"
 #include "render/memory/available_memory.h"
 
@@ -161,28 +161,6 @@ class Blocks {
     return {};
   }
 
-  /// What is wrong with the values, though the answer is whole.
-  [[nodiscard]] Status check() const {
-    const auto& positions = frame_.positions;
-    const auto wrong = std::find_if(positions.begin(), positions.end(),
-                                    [](const Vec3d& point) { return !is_finite(point); });
-    if (wrong != positions.end()) {
-      return Diagnostic::of("particle " + std::to_string(wrong - positions.begin() + 1) +
-                            " is at no finite position");
-    }
-    for (const NumberColumn& column : frame_.numbers) {
-      if (options_.lenient) break;
-      const auto& values = column.values;
-      const auto infinite = std::find_if(values.begin(), values.end(),
-                                         [](double value) { return std::isinf(value); });
-      if (infinite == values.end()) continue;
-      return Diagnostic::about(column.name, "of particle " +
-                                                std::to_string(infinite - values.begin() + 1) +
-                                                ": expected a finite number");
-    }
-    return {};
-  }
-
  private:
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(lines_.particles); }
 
@@ -309,7 +287,7 @@ BridgeAnswer<ParticleFrame> read_frame(ChildProcess& process, const ParticleFile
   if (auto done = check_promise(lines); !done) return {done.error()};
   Blocks blocks(process, lines, options, frame);
   if (auto done = blocks.read(); !done) return {done.error()};
-  if (auto done = blocks.check(); !done) return {done.error(), true};
+  if (auto done = check_values(frame, options.lenient); !done) return {done.error(), true};
   if (!lines.has_positions && options.places_matter) {
     return {Diagnostic::of("it has no positions: it is a topology (--topology) of other files"),
             true};

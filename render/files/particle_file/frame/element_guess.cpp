@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <map>
 #include <string>
+#include <utility>
 
 namespace boule {
 namespace {
@@ -87,6 +90,31 @@ std::string_view element_of_atom(std::string_view atom, std::string_view residue
   if (std::count(common.begin(), common.end(), symbol) > 0) return symbol;
   const std::string_view single = symbol_of(name[0], ' ');
   return single.empty() ? atom : single;
+}
+
+void guess_species(ParticleFrame& frame) {
+  const TextColumn* const names = find_text_column(frame, "name");
+  const TextColumn* const residues = find_text_column(frame, "resname");
+  if (names == nullptr) return;
+  TextColumn species{"element", {}, std::vector<std::uint32_t>(frame.size())};
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
+  std::map<std::string_view, std::uint32_t> elements;
+  for (std::size_t i = 0; i < frame.size(); ++i) {
+    const std::uint32_t name = names->indices[i];
+    const std::uint32_t residue = residues != nullptr ? residues->indices[i] : 0;
+    const auto [found, is_new] = known.try_emplace({name, residue}, 0);
+    if (is_new) {
+      const std::string_view element = element_of_atom(
+          names->texts[name], residues != nullptr ? residues->texts[residue] : std::string());
+      const auto next = static_cast<std::uint32_t>(species.texts.size());
+      const auto [place, is_first] = elements.try_emplace(element, next);
+      if (is_first) species.texts.emplace_back(element);
+      found->second = place->second;
+    }
+    species.indices[i] = found->second;
+  }
+  frame.species = std::move(species);
+  frame.notes.emplace_back(elements_are_guessed);
 }
 
 }  // namespace boule

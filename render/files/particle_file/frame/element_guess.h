@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <string_view>
 
+#include "render/files/particle_file/frame/particle_frame.h"
+
 namespace boule {
 
 /// The symbol of an atom's element by its name and that of its residue, where a file does not tell
@@ -28,5 +30,9 @@ inline constexpr std::size_t last_element = 118;
 /// What a note says where elements are not in the file.
 inline constexpr const char* elements_are_guessed =
     "the elements are guessed from the names of atoms and residues";
+
+/// Makes such elements the species, with a note, of a frame that has names of atoms: the columns
+/// "name" and, if it is there, "resname".
+void guess_species(ParticleFrame& frame);
 
 }  // namespace boule

@@ -70,6 +70,9 @@ extern const ParticleFormat mmcif_format;
 /// Tables as text: a row for each particle, columns between commas, semicolons, tabs or blanks,
 /// named by a header line, a comment before the rows, or ParticleFileOptions::columns.
 extern const ParticleFormat table_format;
+/// HDF5: trajectories of H5MD, snapshots of GADGET and its family, and openPMD; libhdf5 reads them,
+/// in a module.
+extern const ParticleFormat hdf5_format;
 /// All files that libraries of Python read (bridge/boule_read.py).
 extern const ParticleFormat library_format;
 

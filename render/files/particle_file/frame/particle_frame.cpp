@@ -76,4 +76,13 @@ bool is_wanted(const std::optional<std::vector<std::string>>& wanted, std::strin
   return !wanted || std::find(wanted->begin(), wanted->end(), name) != wanted->end();
 }
 
+void leave_out_unwanted(const std::optional<std::vector<std::string>>& wanted,
+                        ParticleFrame& frame) {
+  std::erase_if(frame.texts, [&](const TextColumn& column) {
+    if (is_wanted(wanted, column.name)) return false;
+    frame.unread.push_back(column.name);
+    return true;
+  });
+}
+
 }  // namespace boule

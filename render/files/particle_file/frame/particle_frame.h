@@ -83,6 +83,11 @@ struct ParticleFrame {
   /// it.
   double length_in_angstrom = 1;
   std::vector<std::string> notes{};  ///< omissions and automatic choices, a sentence each
+  /// Of a part of a frame: how many particles are before it, and how many the whole frame has.
+  struct Part {
+    std::uint64_t before, all;
+  };
+  std::optional<Part> part{};
 
   [[nodiscard]] std::size_t size() const { return positions.size(); }
 };
@@ -100,5 +105,9 @@ void keep_bonds(std::vector<ParticleBond>& bonds, const std::vector<std::uint8_t
 
 /// Whether a column is to be read: all are if `wanted` is empty.
 bool is_wanted(const std::optional<std::vector<std::string>>& wanted, std::string_view name);
+
+/// Moves the names of texts that are not wanted to the list of those that are unread.
+void leave_out_unwanted(const std::optional<std::vector<std::string>>& wanted,
+                        ParticleFrame& frame);
 
 }  // namespace boule

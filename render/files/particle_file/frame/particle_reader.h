@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,21 @@ struct ParticleFileOptions {
   bool places_matter = true;  ///< false: a file without positions is read, they are 0
 };
 
+/// A frame that is read part by part: all of it need not fit into memory.
+class FrameParts {
+ public:
+  FrameParts() = default;
+  FrameParts(const FrameParts&) = delete;
+  FrameParts& operator=(const FrameParts&) = delete;
+  virtual ~FrameParts() = default;
+
+  /// Its particles.
+  [[nodiscard]] virtual std::uint64_t size() const = 0;
+  /// Particles begin .. begin + count - 1, as a frame: with the columns, texts, cell and notes of
+  /// the whole one, but without bonds. Precondition: they are there.
+  virtual Result<ParticleFrame> read(std::uint64_t begin, std::size_t count) = 0;
+};
+
 /// One format's reader of one open file.
 class ParticleReader {
  public:
@@ -52,6 +68,12 @@ class ParticleReader {
   /// Frame `frame`, from 0. The Diagnostic has line, column and, as its key, the column's name
   /// where they are known; its file is set by ParticleFile. Precondition: frame < frames().
   virtual Result<ParticleFrame> read(std::size_t frame, const ParallelFor& parallel_for) = 0;
+
+  /// The same frame part by part; null if this format, or this frame, is read as a whole only.
+  virtual Result<std::unique_ptr<FrameParts>> parts(std::size_t frame) {
+    static_cast<void>(frame);
+    return std::unique_ptr<FrameParts>();
+  }
 };
 
 }  // namespace boule

@@ -137,7 +137,7 @@ std::optional<std::size_t> axis_of(const std::string& name) {
   return static_cast<std::size_t>(name[0] - 'x');
 }
 
-bool is_species(const std::string& name) {
+bool is_species_name(const std::string& name) {
   return name == "species" || is_atomic_number_name(name);
 }
 
@@ -171,7 +171,7 @@ class BinaryTableReader {
   using Place = std::pair<std::size_t, std::size_t>;
 
   [[nodiscard]] bool is_kept(const BinaryColumn& column) const {
-    return column.name == "type" || is_species(column.name) ||
+    return column.name == "type" || is_species_name(column.name) ||
            is_wanted(options_.wanted, column.name);
   }
 
@@ -212,7 +212,7 @@ class BinaryTableReader {
   }
 
   void read_texts(const BinaryColumn& column) {
-    const bool first_species = is_species(column.name) && !frame_.species;
+    const bool first_species = is_species_name(column.name) && !frame_.species;
     TextColumn& texts = first_species ? frame_.species.emplace() : frame_.texts.emplace_back();
     texts.name = column.name;
     texts.indices.resize(table_.rows);

@@ -172,86 +172,6 @@ def with_gsd(folder):
     print("gsd: 1 file")
 
 
-def with_h5py(folder):
-    h5py = importlib.import_module("h5py")
-    positions, species = RNG.normal(size=(4, 7, 3)), np.arange(7) % 3
-    with h5py.File(folder / "run.h5", "w") as file:
-        group = file.create_group("particles/all")
-        group["position/value"] = positions
-        group["position/value"].attrs["unit"] = "nm"
-        group["position/time"] = np.arange(4) * 0.5
-        group["species"] = species
-        group["velocity/value"] = positions * 2
-        group["charge"] = np.arange(7.0)
-        group.create_group("box").attrs["boundary"] = ["periodic", "none", "periodic"]
-        group["box/edges/value"] = np.array([np.diag([5, 6, 7 + i]) for i in range(4)])
-        file["parameters"] = 1
-    mine = read(folder / "run.h5")
-    assert len(mine) == 4
-    for i, one in enumerate(mine):
-        same("run.h5", one, positions[i], np.diag([5, 6, 7 + i]), [str(code) for code in species])
-        assert np.array_equal(numbers(one["numbers"]["vz"], -1), positions[i, :, 2] * 2)
-        assert one["periodic"] == [1, 0, 1]
-    with h5py.File(folder / "other.h5", "w") as file:
-        file["numbers"] = [1, 2]
-        file["bad"] = h5py.SoftLink("/nowhere")
-    code, text = run(folder / "other.h5")
-    assert code != 0 and "it lacks the groups of H5MD" in text, text
-    with h5py.File(folder / "vast.h5", "w") as file:
-        file.create_dataset("particles/all/position/value", (1, 10**12, 3), "f8", chunks=(1, 10**5, 3))
-    code, text = run(folder / "vast.h5")
-    assert code != 0 and "more memory than there is" in text, text
-    snapshot(h5py, folder)
-    openpmd(h5py, folder)
-    print("h5py: 5 files")
-
-
-def snapshot(h5py, folder):
-    """As GADGET and its family write it."""
-    gas, stars = RNG.normal(size=(5, 3)).astype("f4"), RNG.normal(size=(3, 3)).astype("f4")
-    with h5py.File(folder / "snap_012.hdf5", "w") as file:
-        header = file.create_group("Header").attrs
-        header["BoxSize"], header["Time"], header["NumFilesPerSnapshot"] = 25.0, 0.5, 2
-        file["PartType0/Coordinates"], file["PartType4/Coordinates"] = gas, stars
-        file["PartType0/SmoothingLength"] = np.arange(5.0)
-        file["PartType0/Velocities"], file["PartType4/Velocities"] = gas * 2, stars * 2
-        file["PartType0/ParticleIDs"], file["PartType4/ParticleIDs"] = np.arange(5), np.arange(5, 8)
-        file.create_group("PartType1")
-    one, = read(folder / "snap_012.hdf5")
-    both = np.vstack([gas, stars])
-    same("snap_012.hdf5", one, both, np.diag([25, 25, 25]), ["gas"] * 5 + ["stars"] * 3)
-    assert np.array_equal(numbers(one["numbers"]["vy"], -1), np.float64(both * 2)[:, 1])
-    assert numbers(one["numbers"]["id"], -1).tolist() == list(range(8))
-    lengths = numbers(one["numbers"]["SmoothingLength"], -1)
-    assert lengths[:5].tolist() == [0, 1, 2, 3, 4] and np.isnan(lengths[5:]).all()
-
-
-def openpmd(h5py, folder):
-    """Two steps of two species, of which one has fixed components and offsets."""
-    places = RNG.normal(size=(2, 4, 3))
-    with h5py.File(folder / "beam.h5", "w") as file:
-        file.attrs["openPMD"], file.attrs["particlesPath"] = "1.1.0", "particles/"
-        for step in range(2):
-            group = file.create_group(f"data/{step * 100}/particles")
-            group.parent.attrs["time"], group.parent.attrs["timeUnitSI"] = step * 1.5, 1.0
-            for k, axis in enumerate("xyz"):
-                group[f"e/position/{axis}"] = places[step, :, k]
-                group[f"e/position/{axis}"].attrs["unitSI"] = 1.0
-                group[f"e/momentum/{axis}"] = places[step, :, k] * 3
-                fixed = group.create_group(f"e/positionOffset/{axis}").attrs
-                fixed["value"], fixed["shape"], fixed["unitSI"] = 2.0 * k, [4], 0.5
-                fixed = group.create_group(f"H/position/{axis}").attrs
-                fixed["value"], fixed["shape"] = 7.0, [1]
-            group["e/weighting"] = np.arange(4.0)
-    mine = read(folder / "beam.h5")
-    assert len(mine) == 2
-    for i, one in enumerate(mine):
-        expected = np.vstack([[[7, 7, 7]], places[i] + [0, 1, 2]])
-        same("beam.h5", one, expected, species=["H"] + ["e"] * 4)
-        assert np.array_equal(numbers(one["numbers"]["momentum_z"], -1)[1:], places[i, :, 2] * 3)
-        assert numbers(one["numbers"]["weighting"], -1)[1:].tolist() == [0, 1, 2, 3]
-
-
 def with_meshio(folder):
     meshio = importlib.import_module("meshio")
     points = RNG.normal(size=(9, 3))
@@ -290,7 +210,7 @@ def with_vtk(folder):
 
 def broken_files(folder):
     """One error each, and no trace of Python's own."""
-    for name in ("a.traj", "a.xtc", "a.gsd", "a.h5", "a.vtu", "POSCAR.x", "a.psf", "a.cube"):
+    for name in ("a.traj", "a.xtc", "a.gsd", "a.vtu", "POSCAR.x", "a.psf", "a.cube"):
         for content in (b"", b"hello\n", bytes(range(256)) * 40):
             (folder / name).write_bytes(content)
             code, text = run(folder / name)
@@ -326,14 +246,15 @@ def hostile_modules(folder):
     }.items():
         fake = folder / "fake"
         fake.mkdir(exist_ok=True)
-        (fake / "h5py.py").write_text(f"def File(*_):\n    {act}\n")
-        (folder / "a.h5").write_text("x")
-        code, text = run(folder / "a.h5", modules=fake)
+        (fake / "meshio.py").write_text(f"def read(*_):\n    {act}\n")
+        (fake / "vtk.py").write_text("raise ModuleNotFoundError('hidden', name='vtk')\n")
+        (folder / "a.vtk").write_text("x")
+        code, text = run(folder / "a.vtk", modules=fake)
         assert code != 0 and told in text and len(text.splitlines()) == 1, f"{act}: {text}"
         assert not (folder / "trace").exists()
 
 
-TESTS = {"ase": with_ase, "MDAnalysis": with_mdanalysis, "gsd": with_gsd, "h5py": with_h5py,
+TESTS = {"ase": with_ase, "MDAnalysis": with_mdanalysis, "gsd": with_gsd,
          "meshio": with_meshio, "vtk": with_vtk}
 there = {name: test for name, test in TESTS.items() if module(name)}
 for name, test in there.items():
