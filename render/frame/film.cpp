@@ -8,9 +8,17 @@
 namespace boule {
 namespace {
 
-float mean(double sum, std::int32_t samples) {
-  constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
-  return static_cast<float>(std::min(sum / samples, largest));
+/// The mean of a pixel's samples, of which there are some.
+Color mean(const FilmPixel& pixel) {
+  const auto of = [&](double sum) {
+    constexpr auto largest = static_cast<double>(std::numeric_limits<float>::max());
+    return static_cast<float>(std::min(pixel.samples == 1 ? sum : sum / pixel.samples, largest));
+  };
+  return {of(pixel.r), of(pixel.g), of(pixel.b)};
+}
+
+float coverage(const FilmPixel& pixel) {
+  return static_cast<float>(static_cast<double>(pixel.covered) / pixel.samples);
 }
 
 }  // namespace
@@ -32,14 +40,10 @@ void Film::copy_to(Image& image, const PixelRect& rect) const {
   const FilmPixel* pixel = pixels_.data();
   for (int y = rect_.y0; y < rect_.y1; ++y) {
     const std::size_t row = image.index(rect_.x0 - rect.x0, y - rect.y0);
-    for (std::size_t x = 0; x < static_cast<std::size_t>(rect_.width()); ++x, ++pixel) {
-      const auto& [r, g, b, samples, covered] = *pixel;
-      if (samples == 0) {
-        image.set(row + x, {}, 0);
-      } else {
-        image.set(row + x, {mean(r, samples), mean(g, samples), mean(b, samples)},
-                  static_cast<float>(static_cast<double>(covered) / samples));
-      }
+    for (std::size_t i = row; i < row + static_cast<std::size_t>(rect_.width()); ++i, ++pixel) {
+      const bool has_samples = pixel->samples > 0;
+      image.pixels[i] = has_samples ? mean(*pixel) : Color{};
+      if (!image.alpha.empty()) image.alpha[i] = has_samples ? coverage(*pixel) : 0;
     }
   }
 }

@@ -9,18 +9,37 @@
 namespace boule {
 namespace {
 
-/// The 16 bits of x, each followed by a 0.
-std::uint32_t spread(std::uint32_t x) {
-  x = (x | x << 8) & 0x00ff00ffu;
-  x = (x | x << 4) & 0x0f0f0f0fu;
-  x = (x | x << 2) & 0x33333333u;
-  return (x | x << 1) & 0x55555555u;
+/// A grid of cells.
+struct Grid {
+  std::size_t columns, rows;
+
+  [[nodiscard]] std::size_t size() const { return columns * rows; }
+};
+
+/// Adds the cells of a square with this upper left corner that lie in the grid, along the Morton
+/// curve: its four quarters in turn. `side` is a power of two.
+template <class Cell>
+void add_along_curve(const Grid& grid, std::size_t x, std::size_t y, std::size_t side,
+                     std::vector<Cell>& cells) {
+  if (x >= grid.columns || y >= grid.rows) return;
+  if (side == 1) {
+    cells.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+    return;
+  }
+  const std::size_t half = side / 2;
+  for (const std::size_t down : {std::size_t{0}, half}) {
+    add_along_curve(grid, x, y + down, half, cells);
+    add_along_curve(grid, x + half, y + down, half, cells);
+  }
 }
 
-/// The index along the Morton curve: the bits of x and y in turn, that of x lowest.
 template <class Cell>
-std::uint32_t morton_code(const Cell& cell) {
-  return spread(cell.x) | spread(cell.y) << 1;
+void add_in_rows(const Grid& grid, std::vector<Cell>& cells) {
+  for (std::size_t y = 0; y < grid.rows; ++y) {
+    for (std::size_t x = 0; x < grid.columns; ++x) {
+      cells.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
+    }
+  }
 }
 
 /// The largest k such that the cell lies on the grid of spacing 2^k; 16 for cell (0, 0).
@@ -47,26 +66,20 @@ void shuffle(std::vector<Cell>& cells) {
 }
 
 template <class Cell>
-void put_in_order(std::vector<Cell>& cells, PixelOrder order) {
-  const auto along_curve = [](const Cell& a, const Cell& b) {
-    return morton_code(a) < morton_code(b);
-  };
+std::vector<Cell> cells_of(const Grid& grid, PixelOrder order) {
   const auto coarse_first = [](const Cell& a, const Cell& b) {
     return coarseness(a) > coarseness(b);
   };
-  switch (order) {
-    case PixelOrder::rows:
-      break;
-    case PixelOrder::tiles:
-      std::sort(cells.begin(), cells.end(), along_curve);
-      break;
-    case PixelOrder::progressive:
-      std::stable_sort(cells.begin(), cells.end(), coarse_first);
-      break;
-    case PixelOrder::frameless:
-      shuffle(cells);
-      break;
+  std::vector<Cell> cells;
+  cells.reserve(grid.size());
+  if (order == PixelOrder::tiles) {
+    add_along_curve(grid, 0, 0, std::bit_ceil(std::max(grid.columns, grid.rows)), cells);
+  } else {
+    add_in_rows(grid, cells);
   }
+  if (order == PixelOrder::progressive) std::stable_sort(cells.begin(), cells.end(), coarse_first);
+  if (order == PixelOrder::frameless) shuffle(cells);
+  return cells;
 }
 
 }  // namespace
@@ -74,15 +87,8 @@ void put_in_order(std::vector<Cell>& cells, PixelOrder order) {
 BlockOrder::BlockOrder(const PixelRect& rect, int tile, PixelOrder order)
     : rect_(rect), tile_(legal(tile)) {
   if (rect.empty()) return;
-  const std::size_t columns = tiles_along(rect.width(), tile_);
-  const std::size_t rows = tiles_along(rect.height(), tile_);
-  blocks_.reserve(columns * rows);
-  for (std::size_t y = 0; y < rows; ++y) {
-    for (std::size_t x = 0; x < columns; ++x) {
-      blocks_.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
-    }
-  }
-  put_in_order(blocks_, order);
+  blocks_ =
+      cells_of<Block>({tiles_along(rect.width(), tile_), tiles_along(rect.height(), tile_)}, order);
 }
 
 PixelRect BlockOrder::operator[](std::size_t i) const {
@@ -97,16 +103,8 @@ std::uint64_t BlockOrder::bytes(const PixelRect& rect, int tile) {
 }
 
 std::vector<PixelOffset> block_pixels(int tile) {
-  const int side = legal(tile);
-  std::vector<PixelOffset> pixels;
-  pixels.reserve(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
-  for (int y = 0; y < side; ++y) {
-    for (int x = 0; x < side; ++x) {
-      pixels.push_back({static_cast<std::uint16_t>(x), static_cast<std::uint16_t>(y)});
-    }
-  }
-  put_in_order(pixels, PixelOrder::tiles);
-  return pixels;
+  const auto side = static_cast<std::size_t>(legal(tile));
+  return cells_of<PixelOffset>({side, side}, PixelOrder::tiles);
 }
 
 }  // namespace boule

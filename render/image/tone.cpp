@@ -42,10 +42,14 @@ std::vector<std::uint8_t> tone_map(const Image& image, float stops) {
   if (!image.alpha.empty()) return tone_map_straight(image, scale);
   std::vector<std::uint8_t> codes(image.pixels.size() * 3);
   std::uint8_t* out = codes.data();
+  const Color* last = nullptr;
   for (const Color& color : image.pixels) {
-    *out++ = table.code(color.r * scale);
-    *out++ = table.code(color.g * scale);
-    *out++ = table.code(color.b * scale);
+    if (last != nullptr && color == *last) {  // backgrounds and shadows
+      out = std::copy_n(out - 3, 3, out);
+    } else {
+      for (const float c : {color.r, color.g, color.b}) *out++ = table.code(c * scale);
+    }
+    last = &color;
   }
   return codes;
 }

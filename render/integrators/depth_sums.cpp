@@ -13,6 +13,12 @@ void clear(std::vector<ColorSum>& row, std::size_t samples) {
   if (samples > 0) std::memset(row.data(), 0, samples * sizeof(ColorSum));
 }
 
+void add(const std::vector<ColorSum>& row, std::size_t samples, std::vector<ColorSum>& total) {
+  for (std::size_t k = 0; k < samples; ++k) {
+    for (std::size_t c = 0; c < 4; ++c) total[k].rgb0[c] += row[k].rgb0[c];
+  }
+}
+
 }  // namespace
 
 void DepthSums::start(std::size_t samples) {
@@ -20,7 +26,8 @@ void DepthSums::start(std::size_t samples) {
     spare_.push_back(std::move(rows_.back()));
     rows_.pop_back();
   }
-  clear(total_, samples);
+  has_total_ = rays_ == RaysPerDepth::one_at_most;
+  if (has_total_) clear(total_, samples);
   samples_ = samples;
   first_depth_ = 0;
 }
@@ -44,9 +51,11 @@ void DepthSums::finish_below(int depth) {
   const auto wanted = static_cast<std::size_t>(depth - first_depth_);
   const std::size_t finished = std::min(wanted, rows_.size());
   for (std::size_t row = 0; row < finished; ++row) {
-    const ColorSum* const sums = rows_[row].data();
-    for (std::size_t k = 0; k < samples_; ++k) {
-      for (std::size_t c = 0; c < 4; ++c) total_[k].rgb0[c] += sums[k].rgb0[c];
+    if (has_total_) {
+      add(rows_[row], samples_, total_);
+    } else {
+      std::swap(total_, rows_[row]);
+      has_total_ = true;
     }
     spare_.push_back(std::move(rows_[row]));
   }
@@ -56,6 +65,7 @@ void DepthSums::finish_below(int depth) {
 
 void DepthSums::finish(Color* radiance) {
   finish_below(first_depth_ + static_cast<int>(rows_.size()));
+  if (!has_total_) clear(total_, samples_);
   for (std::size_t k = 0; k < samples_; ++k) {
     const float* const sum = total_[k].rgb0;
     radiance[k] = settled({sum[0], sum[1], sum[2]}, faults_);

@@ -44,6 +44,7 @@ class DepthSums {
   std::vector<std::vector<ColorSum>> rows_;  ///< by depth - first_depth_
   std::vector<std::vector<ColorSum>> spare_;
   std::vector<ColorSum> total_;
+  bool has_total_ = false;  ///< the sums of the first depth become the total
   SampleFaults faults_;
 };
 

@@ -28,27 +28,30 @@ void add(EdgeBlock& edges, const SampleId& id, const Color& sample, std::uint8_t
 BlockWorker::BlockWorker(const BlockSetup& setup, std::unique_ptr<Integrator> integrator)
     : setup_(setup),
       integrator_(std::move(integrator)),
+      ids_(setup.stream_size),
       found_(setup.scene.camera_view, setup.kernels, setup.sampler, setup.stream_size),
       radiance_(setup.stream_size),
-      covered_(setup.alpha == Alpha::none ? 0 : setup.stream_size) {
-  pixels_.reserve(setup.stream_size);
-}
+      covered_(setup.alpha == Alpha::none ? 0 : setup.stream_size) {}
 
 /// Renders a block until the pixels (x, y) of the frame for which wanted(x, y) holds have `until`
 /// samples.
 template <class Wanted>
 bool BlockWorker::render_wanted(const PixelRect& block, int until, Film& film,
                                 const Wanted& wanted) {
-  pixels_.clear();
+  SampleId* const ids = ids_.data();
+  const std::size_t room = ids_.size();
+  std::size_t count = 0;
   for (const PixelOffset& offset : setup_.block_pixels) {
     const int x = block.x0 + offset.x, y = block.y0 + offset.y;
     if (x >= block.x1 || y >= block.y1 || !wanted(x, y)) continue;
     for (int sample = film.samples(x, y); sample < until; ++sample) {
-      pixels_.push_back({x, y, sample});
-      if (pixels_.size() == setup_.stream_size && !trace(film)) return false;
+      ids[count++] = {x, y, sample};
+      if (count < room) continue;
+      if (!trace(film, count)) return false;
+      count = 0;
     }
   }
-  return trace(film);
+  return trace(film, count);
 }
 
 bool BlockWorker::render(const PixelRect& block, int until, Film& film) {
@@ -94,29 +97,31 @@ bool BlockWorker::measure_parts(const PixelRect& block, Part& part, MeasuredPict
 template <class Part>
 bool BlockWorker::measure_part(const PixelRect& rect, Part& part, MeasuredPicture& picture) {
   part.begin(rect, setup_.frame);
-  pixels_.clear();
   for (bool more = true; more;) {
+    std::size_t count = 0;
     for (const auto& wanted : part.wanted()) {
       for (int sample = part.first(); sample < part.end(); ++sample) {
-        pixels_.push_back({wanted.x, wanted.y, sample});
-        if (pixels_.size() == setup_.stream_size && !trace(part)) return false;
+        ids_[count++] = {wanted.x, wanted.y, sample};
+        if (count < ids_.size()) continue;
+        if (!trace(part, count)) return false;
+        count = 0;
       }
     }
-    if (!trace(part)) return false;
+    if (!trace(part, count)) return false;
     more = part.look(picture);
     if (setup_.live != nullptr) setup_.live->add_measured(part.settled());
   }
   return true;
 }
 
-/// Traces the collected samples and adds them to the film, or to the measurement of noise.
+/// Traces the first `count` samples of ids_ and adds them to the film, or to the measurement of
+/// noise or edges.
 template <class Target>
-bool BlockWorker::trace(Target& target) {
-  if (pixels_.empty()) return true;
-  found_.find(pixels_);
-  if (!(setup_.scene.camera_view.weighs ? trace_weighted(target) : trace_all(target))) return false;
-  pixels_.clear();
-  return true;
+bool BlockWorker::trace(Target& target, std::size_t count) {
+  if (count == 0) return true;
+  const std::span ids = std::span<const SampleId>(ids_).first(count);
+  found_.find(ids);
+  return setup_.scene.camera_view.weighs ? trace_weighted(target, ids) : trace_all(target, ids);
 }
 
 CameraRays BlockWorker::camera_rays(const SampleId* samples) {
@@ -125,31 +130,31 @@ CameraRays BlockWorker::camera_rays(const SampleId* samples) {
 }
 
 template <class Target>
-bool BlockWorker::trace_all(Target& target) {
-  if (!integrator_->trace(camera_rays(pixels_.data()), radiance_.data())) return false;
-  for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    add(target, pixels_[k], radiance_[k], covered(k));
+bool BlockWorker::trace_all(Target& target, std::span<const SampleId> ids) {
+  if (!integrator_->trace(camera_rays(ids.data()), radiance_.data())) return false;
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    add(target, ids[k], radiance_[k], covered(k));
   }
   return true;
 }
 
 /// Traces the samples that have a ray. A sample without a ray counts as black and uncovered.
 template <class Target>
-bool BlockWorker::trace_weighted(Target& target) {
+bool BlockWorker::trace_weighted(Target& target, std::span<const SampleId> ids) {
   const SampleBuffer& samples = found_.samples();
   keep_live_rays(samples, found_.rays());
   live_.clear();
-  for (std::size_t k = 0; k < pixels_.size(); ++k) {
-    if (samples.weight(k) != 0) live_.push_back(pixels_[k]);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    if (samples.weight(k) != 0) live_.push_back(ids[k]);
   }
   if (!integrator_->trace(camera_rays(live_.data()), radiance_.data())) return false;
   std::size_t ray = 0;
-  for (std::size_t k = 0; k < pixels_.size(); ++k) {
+  for (std::size_t k = 0; k < ids.size(); ++k) {
     const float weight = samples.weight(k);
     if (weight == 0) {
-      add(target, pixels_[k], Color{}, 0);
+      add(target, ids[k], Color{}, 0);
     } else {
-      add(target, pixels_[k], weighed(radiance_[ray], weight, weighing_), covered(ray));
+      add(target, ids[k], weighed(radiance_[ray], weight, weighing_), covered(ray));
       ++ray;
     }
   }

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "render/frame/film.h"
@@ -75,21 +76,21 @@ class BlockWorker {
   template <class Part>
   bool measure_part(const PixelRect& rect, Part& part, MeasuredPicture& picture);
   template <class Target>
-  bool trace(Target& target);
+  bool trace(Target& target, std::size_t count);
   [[nodiscard]] CameraRays camera_rays(const SampleId* samples);
   [[nodiscard]] std::uint8_t covered(std::size_t ray) const {
     return covered_.empty() ? std::uint8_t{1} : covered_[ray];
   }
   template <class Target>
-  bool trace_all(Target& target);
+  bool trace_all(Target& target, std::span<const SampleId> ids);
   template <class Target>
-  bool trace_weighted(Target& target);
+  bool trace_weighted(Target& target, std::span<const SampleId> ids);
 
   const BlockSetup& setup_;
   std::unique_ptr<Integrator> integrator_;
-  std::vector<SampleId> pixels_;  ///< whose samples the stream holds
-  std::vector<SampleId> live_;    ///< the samples with a ray, if the camera weighs samples
-  SampleRays found_;              ///< of these samples
+  std::vector<SampleId> ids_;   ///< room for the samples of a stream
+  std::vector<SampleId> live_;  ///< the samples with a ray, if the camera weighs samples
+  SampleRays found_;            ///< of these samples
   std::vector<Color> radiance_;
   std::vector<std::uint8_t> covered_;  ///< by ray; empty without alpha
   SampleFaults weighing_;              ///< of samples that were finite before their weighting

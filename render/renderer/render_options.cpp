@@ -11,7 +11,16 @@
 namespace boule {
 namespace {
 
-constexpr int smallest_fit = 16, usual_fit = 128;  // pixels
+// Sides of blocks in pixels. Measured pictures render the pixels around a block as well.
+constexpr int smallest_fit = 16, fit_of_few = 32, usual_fit = 128, large_fit = 256;
+/// Among so few spheres rays gain nothing from longer streams, and less memory is faster.
+constexpr std::size_t few_spheres = 4096;
+
+/// The largest side that suits the scene.
+int largest_fit(const RenderOptions& options, std::size_t spheres) {
+  if (fitting_stream_size(spheres) > usual_fit * usual_fit) return large_fit;
+  return spheres <= few_spheres && !is_measured(options) ? fit_of_few : usual_fit;
+}
 
 int least_tile(const RenderOptions& options) {
   return options.tile != 0 ? options.tile : smallest_fit;
@@ -121,10 +130,9 @@ Bands bands_of(const RenderOptions& options, unsigned workers) {
 
 int fitting_tile(const RenderOptions& options, unsigned workers, std::size_t spheres) {
   if (options.tile != 0) return options.tile;
-  const bool large = fitting_stream_size(spheres) > usual_fit * usual_fit;
-  const std::uint64_t blocks_per_worker = large ? 8 : 16;
+  int tile = largest_fit(options, spheres);
+  const std::uint64_t blocks_per_worker = tile == large_fit ? 8 : 16;
   const std::uint64_t area = rendered_rect(options).area();
-  int tile = large ? 2 * usual_fit : usual_fit;
   while (tile > smallest_fit &&
          area < blocks_per_worker * workers * static_cast<std::uint64_t>(tile * tile))
     tile /= 2;

@@ -1,5 +1,6 @@
 #include "render/renderer/renderer.h"
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <new>
@@ -16,6 +17,17 @@
 #include "render/renderer/preparation.h"
 
 namespace boule {
+namespace {
+
+/// The most rays of a stream: as many as suit the scene, but not more than a block has samples.
+std::size_t largest_stream(const RenderOptions& options, std::size_t spheres) {
+  const std::size_t fitting = fitting_stream_size(spheres);
+  if (is_measured(options)) return fitting;
+  const auto tile = static_cast<std::size_t>(options.tile);
+  return std::min(fitting, tile * tile * static_cast<std::size_t>(options.spp));
+}
+
+}  // namespace
 
 Diagnostic Renderer::moved_away() { return Diagnostic::of("the renderer was moved away"); }
 
@@ -25,7 +37,7 @@ Renderer::Renderer(const RenderOptions& options, std::shared_ptr<const PreparedS
       scene_(std::move(scene)),
       setup_(std::make_unique<const BlockSetup>(BlockSetup{
           *scene_, kernels, Sampler(options.spp, options.seed, options.filter),
-          block_pixels(options.tile), fitting_stream_size(scene_->geometry.sphere_count()),
+          block_pixels(options.tile), largest_stream(options, scene_->geometry.sphere_count()),
           alpha_of(options), PixelRect{0, 0, options.width, options.height}, noise_target(options),
           edge_target(options), std::move(small_spheres), options.live})),
       blocks_(rendered_rect(options), options.tile, options.order),

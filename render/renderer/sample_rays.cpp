@@ -6,14 +6,14 @@
 
 namespace boule {
 
-void SampleRays::find(const std::vector<SampleId>& ids) {
+void SampleRays::find(std::span<const SampleId> ids) {
   place(ids);
   rays_.resize(ids.size(), common_part(camera_.kind));
   kernels_.primary_rays(camera_, samples_.view(), rays_.view());
 }
 
 /// Finds the positions of the samples on the film and on the lens.
-void SampleRays::place(const std::vector<SampleId>& ids) {
+void SampleRays::place(std::span<const SampleId> ids) {
   samples_.resize(most_, camera_);
   samples_.resize(ids.size());
   const bool centered = sampler_.single() || ids[0].sample == EdgeBlock::center;
@@ -33,7 +33,7 @@ void SampleRays::place(const std::vector<SampleId>& ids) {
   }
 }
 
-void SampleRays::find_numbers(const std::vector<SampleId>& ids, RandomSet set) {
+void SampleRays::find_numbers(std::span<const SampleId> ids, RandomSet set) {
   numbers_.resize(most_);
   for (std::size_t k = 0; k < ids.size(); ++k) {
     const auto& [x, y, sample] = ids[k];

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+#include <span>
 
 #include "core/math/sample_id.h"
 #include "core/optics/camera_view.h"
@@ -22,14 +22,14 @@ class SampleRays {
 
   /// Finds the rays of one or more samples. Of a camera that weighs, a ray is undefined where its
   /// sample has the weight 0.
-  void find(const std::vector<SampleId>& ids);
+  void find(std::span<const SampleId> ids);
 
   [[nodiscard]] const SampleBuffer& samples() const { return samples_; }
   RayBuffer& rays() { return rays_; }
 
  private:
-  void place(const std::vector<SampleId>& ids);
-  void find_numbers(const std::vector<SampleId>& ids, RandomSet set);
+  void place(std::span<const SampleId> ids);
+  void find_numbers(std::span<const SampleId> ids, RandomSet set);
 
   const CameraView& camera_;
   const KernelTable& kernels_;
