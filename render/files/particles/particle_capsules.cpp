@@ -57,11 +57,6 @@ Status ParticleSpheres::add_bonds(const ParticleStyle& style, const BondPlan& pl
   if (style.cell_edges) {
     edge_look_ = {cell_edge_radius(*frame.cell), MaterialRef::colored(style.material, edge_color)};
   }
-  if (style.axes) {
-    axes_.emplace();
-    for (std::size_t k = 0; k < 3; ++k)
-      (*axes_)[k] = MaterialRef::colored(style.material, axis_colors[k]);
-  }
   auto bonds = make_bonds(frame, plan, radii_, images_.size(), parallel_for);
   if (!bonds) return bonds.error();
   bonds_ = std::move(bonds).value();
@@ -132,6 +127,19 @@ Status ParticleSpheres::add_arrows(const ParticleStyle& style) {
   return {};
 }
 
+void ParticleSpheres::add_axes(const ParticleStyle& style) {
+  if (!style.axes || frame_->size() == 0) return;
+  float largest = 0;
+  for (std::size_t i = 0; i < frame_->size(); ++i) largest = std::max(largest, radii_[i]);
+  const Vec3d around = Vec3d{1, 1, 1} * double{largest};
+  own_.axes_box = {bounds_[0] - around, bounds_[1] + around};
+  axes_.emplace();
+  for (std::size_t k = 0; k < axis_colors.size(); ++k)
+    axes_->materials[k] = MaterialRef::colored(style.material, axis_colors[k]);
+  const bool is_chosen = style.chosen != nullptr && style.chosen->axes_box;
+  axes_->box = is_chosen ? *style.chosen->axes_box : *own_.axes_box;
+}
+
 Status ParticleSpheres::append_capsules_to(std::vector<Capsule>& capsules,
                                            const Vec3d& origin) const {
   append_lines_to(capsules, origin);
@@ -180,12 +188,9 @@ void ParticleSpheres::append_lines_to(std::vector<Capsule>& capsules, const Vec3
 
 /// Three lines from the corner of the cell or, without one, of the box around the spheres.
 void ParticleSpheres::append_axes_to(std::vector<Capsule>& capsules, const Vec3d& origin) const {
-  if (!axes_ || frame_->size() == 0) return;
-  float largest = 0;
-  for (std::size_t i = 0; i < frame_->size(); ++i) largest = std::max(largest, radii_[i]);
-  const Vec3d around = Vec3d{1, 1, 1} * double{largest};
-  Vec3d corner = bounds_[0] - around;
-  const Vec3d sides = bounds_[1] + around - corner;
+  if (!axes_) return;
+  Vec3d corner = axes_->box[0];
+  const Vec3d sides = axes_->box[1] - corner;
   double longest = std::max({sides.x, sides.y, sides.z});
   if (frame_->cell) {
     const ParticleCell& cell = *frame_->cell;
@@ -198,7 +203,7 @@ void ParticleSpheres::append_axes_to(std::vector<Capsule>& capsules, const Vec3d
   const std::array<Vec3d, 3> along{{{length, 0, 0}, {0, length, 0}, {0, 0, length}}};
   for (std::size_t k = 0; k < along.size(); ++k) {
     capsules.push_back({vec_cast<float>(begin), vec_cast<float>(begin + along[k]),
-                        static_cast<float>(axis_radius * longest), (*axes_)[k]});
+                        static_cast<float>(axis_radius * longest), axes_->materials[k]});
   }
 }
 

@@ -33,6 +33,12 @@ void insert(double number, std::vector<double>& numbers) {
   if (place == numbers.end() || *place != number) numbers.insert(place, number);
 }
 
+/// The smallest box around two boxes.
+std::array<Vec3d, 2> joined(const std::array<Vec3d, 2>& a, const std::array<Vec3d, 2>& b) {
+  return {Vec3d{std::min(a[0].x, b[0].x), std::min(a[0].y, b[0].y), std::min(a[0].z, b[0].z)},
+          Vec3d{std::max(a[1].x, b[1].x), std::max(a[1].y, b[1].y), std::max(a[1].z, b[1].z)}};
+}
+
 void add_names(const std::vector<std::string>& more, std::vector<std::string>& names) {
   for (const std::string& name : more) {
     if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -74,6 +80,9 @@ void ParticleChoices::add(const ParticleChoices& frame) {
   if (frame.smallest_radius) {
     smallest_radius =
         std::min(smallest_radius.value_or(*frame.smallest_radius), *frame.smallest_radius);
+  }
+  if (frame.axes_box) {
+    axes_box = axes_box ? joined(*axes_box, *frame.axes_box) : *frame.axes_box;
   }
   add_names(frame.unlisted, unlisted);
   if (frame.range) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "core/math/vec.h"
 #include "render/files/particles/colors/color_meaning.h"
 #include "render/files/particles/colors/given_kinds.h"
 
@@ -46,6 +47,8 @@ struct ParticleChoices {
   std::optional<bool> starts_bonded{};
   /// Of the particles, where radii of bonds come from it; in a series of all frames.
   std::optional<double> smallest_radius{};
+  /// The box around the spheres, where axes are drawn; in a series around those of all frames.
+  std::optional<std::array<Vec3d, 2>> axes_box{};
 
   std::string of_frames{};  ///< "all 4 frames"; empty: one frame by itself
 
@@ -59,7 +62,7 @@ struct ParticleChoices {
   [[nodiscard]] bool numbers_are_kinds() const;
   /// Whether other frames may change what is chosen.
   [[nodiscard]] bool is_open() const {
-    return particles > 0 || distance || range || !column.empty() || !kinds.empty();
+    return particles > 0 || distance || range || !column.empty() || !kinds.empty() || axes_box;
   }
   /// The radius where there is no other: half the typical distance, or 1.
   [[nodiscard]] double typical_radius() const { return distance ? *distance / 2 : 1; }

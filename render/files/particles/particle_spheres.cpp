@@ -240,6 +240,7 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
     return done.error();
   if (auto done = made.find_bounds(style, parallel_for); !done) return done.error();
   if (auto done = made.add_arrows(style); !done) return done.error();
+  made.add_axes(style);
   made.colors_ = std::move(materials.value().colors);
   made.radius_source_ = std::move(source.value().text);
   append(frame.notes, std::move(source.value().notes));

@@ -92,10 +92,15 @@ class ParticleSpheres {
   struct Range {
     std::size_t begin = 0, end = 0;
   };
+  struct AxesLook {
+    std::array<MaterialRef, 3> materials;  ///< of x, y, z
+    std::array<Vec3d, 2> box;              ///< around the spheres, in a series around all of them
+  };
 
   Status add_bonds(const ParticleStyle& style, const BondPlan& plan, RadiusSource& source,
                    const ParticleNamer& name_of, const ParallelFor& parallel_for);
   Status add_arrows(const ParticleStyle& style);
+  void add_axes(const ParticleStyle& style);
   [[nodiscard]] BondedParticles bonded(const CellImages& images, const BoundaryImages* boundary,
                                        const Vec3d& origin) const;
   Status append_capsules_of(const CellImages& images, const BoundaryImages* boundary,
@@ -120,9 +125,9 @@ class ParticleSpheres {
   BoundaryImages boundary_;
   std::vector<Bond> bonds_;
   BondLook bond_look_;
-  std::optional<BondLook> edge_look_;               ///< if the edges of the cell are drawn
-  std::optional<std::array<MaterialRef, 3>> axes_;  ///< of x, y, z, if they are drawn
-  std::vector<Vec3d> arrows_;                       ///< of each particle; empty: none
+  std::optional<BondLook> edge_look_;  ///< if the edges of the cell are drawn
+  std::optional<AxesLook> axes_;       ///< if they are drawn
+  std::vector<Vec3d> arrows_;          ///< of each particle; empty: none
   std::array<Vec3d, 2> bounds_{};
   double smallest_radius_ = 0;
   ParticleColors colors_;

@@ -238,5 +238,27 @@ TEST(ParticleBonds, SeriesKeepTheirLook) {
   EXPECT_EQ(capsules_of(second, of_series)[0].radius, capsules_of(first, style)[0].radius);
 }
 
+TEST(ParticleBonds, AxesOfSeriesFollowAllFrames) {
+  const auto at = [](const Vec3d& a, const Vec3d& b) {
+    ParticleFrame frame;
+    frame.positions = {a, b};
+    return frame;
+  };
+  const ParticleStyle style{.radius = 0.5, .axes = true};
+  const auto first = at({0, 0, 0}, {3, 0, 0}), second = at({5, 2, 1}, {7, 2, 1});
+  ParticleChoices all = ParticleSpheres::make(first, style).value().own_choices();
+  EXPECT_TRUE(all.is_open());
+  all.add(ParticleSpheres::make(second, style).value().own_choices());
+  all.finish("all 2 frames");
+  const ParticleStyle of_series{.radius = 0.5, .chosen = &all, .axes = true};
+  for (const ParticleFrame& frame : {first, second}) {
+    const auto axes = capsules_of(frame, of_series);
+    ASSERT_EQ(axes.size(), 3U);
+    EXPECT_EQ(axes[0].a, (Vec3f{-0.5, -0.5, -0.5}));
+    EXPECT_EQ(axes[0].b, (Vec3f{1.5, -0.5, -0.5}));  // a quarter of 8
+  }
+  EXPECT_THAT(capsules_of(ParticleFrame(), of_series), IsEmpty());
+}
+
 }  // namespace
 }  // namespace boule
