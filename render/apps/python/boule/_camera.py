@@ -5,13 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple
 
 from . import _core
-from ._objects import Fit, Orthographic, Pinhole
+from ._objects import KINDS, Fit
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-_FITTED = {"pinhole": Pinhole, "orthographic": Orthographic}
+_FITTED = {"pinhole": KINDS["Pinhole"], "orthographic": KINDS["Orthographic"]}
 
 
 class Rays(NamedTuple):

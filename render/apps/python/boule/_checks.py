@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from . import _core
-from ._objects import ConstantBackground, Table, error
+from ._objects import KINDS, Table, error
 
 
 class Strict:
@@ -100,7 +100,7 @@ def camera(name, value):
 
 def color(name, value):
     try:
-        ConstantBackground(color=value)  # checks it
+        KINDS["ConstantBackground"](color=value)  # checks it
     except _core.Error as wrong:
         raise error(name, str(wrong).replace(" (key 'color')", "")) from None
     return value

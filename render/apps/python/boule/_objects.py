@@ -227,61 +227,61 @@ def _of(kind, type_name, type_key=True):
     return lambda cls: _fill(cls, kind, type_name, type_key)
 
 
-@_of("material", "matte")
-class Matte(Table):
-    """Ideally diffuse."""
+# What the kinds of a table are; one that is not here has the name of its type.
+_ABOUT = {
+    "material": {
+        "matte": "Ideally diffuse.",
+        "plastic": "Diffuse with a white highlight and, where reflect > 0, a mirror image.",
+        "metal": "A coloured mirror.",
+        "glass": "Mirrors and refracts; color tints each crossing, ior is the index of refraction.",
+        "emissive": "Radiates on both sides, reflects nothing.",
+        "phong": "Whitted's model as it stands: ka, kd, ks, shininess, transmission, ior.",
+    },
+    "camera": {
+        "pinhole": "All rays from the eye; fov in degrees, above 0, below 180.",
+        "orthographic": "All rays along the view; height of the picture in world units, above 0.",
+        "fisheye": "All rays from the eye, equidistant in angle; fov in degrees, up to 360.",
+        "thin_lens": (
+            "A pinhole opened to a disc: aperture is its radius in world units (or f_number with\n"
+            "focal_length); focus is the distance that is sharp, or a point that is."
+        ),
+        "lens": (
+            "A lens of real elements: file names its prescription, or surfaces has it, N x 4:\n"
+            "radius, thickness, index, aperture."
+        ),
+    },
+    "background": {
+        "constant": "One colour in all directions.",
+        "gradient": "From bottom to top, with the mean of both at the horizon.",
+        "environment": (
+            "A latitude-longitude picture of everything around: file names it, or pixels has it,\n"
+            "H x W x 3, linear; its top row is up (+y). rotation in degrees to the right."
+        ),
+    },
+    "light": {
+        "point": "Light from a point in all directions.",
+        "directional": "Light from infinitely far away; direction is the way it travels.",
+        "sphere": (
+            "A sphere that radiates alike in all directions. It is no object: rays pass through it."
+        ),
+    },
+}
 
 
-@_of("material", "plastic")
-class Plastic(Table):
-    """Diffuse with a white highlight and, where reflect > 0, a mirror image."""
+def _classes_of_kinds():
+    """Matte, ThinLens, ConstantBackground, PointLight and so on: a class for each kind of a table."""
+    made = {}
+    for kind, about in _ABOUT.items():
+        ending = kind.title() if kind in ("background", "light") else ""
+        for type_name in _FIELDS[kind]:
+            name = type_name.title().replace("_", "") + ending
+            doc = about.get(type_name, f"The {kind} {type_name!r} of scene files.")
+            made[name] = _fill(type(name, (Table,), {"__doc__": doc}), kind, type_name, True)
+    return made
 
 
-@_of("material", "metal")
-class Metal(Table):
-    """A coloured mirror."""
-
-
-@_of("material", "glass")
-class Glass(Table):
-    """Mirrors and refracts; color tints each crossing, ior is the index of refraction."""
-
-
-@_of("material", "emissive")
-class Emissive(Table):
-    """Radiates on both sides, reflects nothing."""
-
-
-@_of("material", "phong")
-class Phong(Table):
-    """Whitted's model as it stands: ka, kd, ks, shininess, transmission, ior."""
-
-
-@_of("camera", "pinhole")
-class Pinhole(Table):
-    """All rays from the eye; fov in degrees, above 0, below 180."""
-
-
-@_of("camera", "orthographic")
-class Orthographic(Table):
-    """All rays along the view; height of the picture in world units, above 0."""
-
-
-@_of("camera", "fisheye")
-class Fisheye(Table):
-    """All rays from the eye, equidistant in angle; fov in degrees, up to 360."""
-
-
-@_of("camera", "thin_lens")
-class ThinLens(Table):
-    """A pinhole opened to a disc: aperture is its radius in world units (or f_number with
-    focal_length); focus is the distance that is sharp, or a point that is."""
-
-
-@_of("camera", "lens")
-class Lens(Table):
-    """A lens of real elements: file names its prescription, or surfaces has it, N x 4: radius,
-    thickness, index, aperture."""
+KINDS = _classes_of_kinds()
+globals().update(KINDS)
 
 
 @_of("fit", "fit", type_key=False)
@@ -297,37 +297,6 @@ class Fit(Table):
 class Distortion(Table):
     """An ST map, by which a camera's picture is bent: file names a picture, or st has the numbers,
     H x W x 2 of float32 or float64."""
-
-
-@_of("background", "constant")
-class ConstantBackground(Table):
-    """One colour in all directions."""
-
-
-@_of("background", "gradient")
-class GradientBackground(Table):
-    """From bottom to top, with the mean of both at the horizon."""
-
-
-@_of("background", "environment")
-class EnvironmentBackground(Table):
-    """A latitude-longitude picture of everything around: file names it, or pixels has it,
-    H x W x 3, linear; its top row is up (+y). rotation in degrees to the right."""
-
-
-@_of("light", "point")
-class PointLight(Table):
-    """Light from a point in all directions."""
-
-
-@_of("light", "directional")
-class DirectionalLight(Table):
-    """Light from infinitely far away; direction is the way it travels."""
-
-
-@_of("light", "sphere")
-class SphereLight(Table):
-    """A sphere that radiates alike in all directions. It is no object: rays pass through it."""
 
 
 @_of("image", "image", type_key=False)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from . import _camera, _core
 from . import _checks as checks
 from ._objects import (
+    KINDS,
     Capsule,
-    ConstantBackground,
     Distortion,
     Fit,
     ImageSettings,
@@ -349,7 +349,7 @@ class Scene(_Objects):
         self.image = ImageSettings() if image is None else image
         self.render = RenderSettings() if render is None else render
         self.camera = camera
-        self.background = ConstantBackground() if background is None else background
+        self.background = KINDS["ConstantBackground"]() if background is None else background
         self.ambient = ambient
         self.backdrop = backdrop
         self.materials = {} if materials is None else dict(_materials("materials", materials))
