@@ -24,6 +24,9 @@ class Projection {
   Projection(const CameraView& camera, int width)
       : camera_(camera), pixels_(width / (2 * length(camera.right))) {}
 
+  /// Whether straight lines are straight in the picture.
+  [[nodiscard]] bool keeps_lines() const { return camera_.kind != CameraKind::fisheye; }
+
   /// None: the camera does not see its middle.
   [[nodiscard]] std::optional<Disc> of(const Sphere& sphere) const {
     const Vec3d way = vec_cast<double>(sphere.center) - camera_.eye;

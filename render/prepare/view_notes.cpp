@@ -25,8 +25,9 @@ bool repeats_rays(const CameraView& camera, int width, int height) {
 
 bool are_small(const CameraView& camera, int width, int height,
                const std::vector<Sphere>& spheres) {
-  if (camera.kind == CameraKind::fisheye || camera.kind == CameraKind::lens) return false;
+  if (camera.kind == CameraKind::lens) return false;
   const Projection projection(camera, width);
+  if (!projection.keeps_lines()) return false;
   std::size_t shown = 0, small = 0;
   for (const Sphere& sphere : spheres) {
     const auto disc = projection.of(sphere);

@@ -56,10 +56,7 @@ void visit_capsules(const Geometry& geometry, const ParallelFor& parallel_for, c
 class SmallSpheres::Marker {
  public:
   Marker(SmallSpheres& to, const CameraView& camera, int width)
-      : to_(to),
-        projection_(camera, width),
-        keeps_lines_(camera.kind != CameraKind::fisheye),
-        rect_(to.rect_) {}
+      : to_(to), projection_(camera, width), rect_(to.rect_) {}
 
   void add(const Sphere& sphere) {
     const auto disc = projection_.of(sphere);
@@ -86,7 +83,7 @@ class SmallSpheres::Marker {
     if (!first && !last) return;
     // Nothing between two points is farther away than both.
     if (first && last && !is_small(*first) && !is_small(*last)) return;
-    if (first && last && keeps_lines_ && are_beside(*first, *last)) return;
+    if (first && last && projection_.keeps_lines() && are_beside(*first, *last)) return;
     const bool are_near = first && last && std::fabs(first->x - last->x) <= near &&
                           std::fabs(first->y - last->y) <= near;
     if (are_near || halvings == 0) {
@@ -125,7 +122,6 @@ class SmallSpheres::Marker {
 
   SmallSpheres& to_;
   Projection projection_;
-  bool keeps_lines_;  ///< the camera shows lines as lines
   PixelRect rect_;
   std::atomic<bool> any_ = false;
 };
