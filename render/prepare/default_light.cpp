@@ -8,6 +8,7 @@
 
 #include "core/math/geometry.h"
 #include "core/scene/instances.h"
+#include "render/prepare/flat_material.h"
 
 namespace boule {
 namespace {
@@ -39,10 +40,10 @@ bool gives_light(const Material& material) {
   return emissive != nullptr && !is_black(emissive->radiance);
 }
 
-/// Whether a material is black where no light comes from a light.
+/// Whether a material, in white, is black where no light comes from a light.
 bool needs_light(const Material& material) {
-  if (const auto* phong = std::get_if<Phong>(&material)) return phong->kd > 0 && !(phong->ka > 0);
-  return std::holds_alternative<Matte>(material) || std::holds_alternative<Plastic>(material);
+  const FlatMaterial flat = flatten(recolored(material, gray(1)), Color{});
+  return is_black(flat.constant) && !is_black(flat.diffuse);
 }
 
 /// Whether any object has a material that is `wanted`; of packed spheres the emissive ones are
