@@ -66,19 +66,6 @@ std::string temporary_name(const std::string& target) {
   return folder + "." + base.substr(0, std::min(dot, room)) + tail;
 }
 
-/// Writes all bytes. Returns 0 or an errno code.
-int write_all(int descriptor, const char* bytes, std::size_t count) {
-  while (count > 0) {
-    const ssize_t written = ::write(descriptor, bytes, count);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    if (written == 0) return EIO;
-    bytes += written;
-    count -= static_cast<std::size_t>(written);
-  }
-  return 0;
-}
-
 /// How long to wait for something slow before `stop` is asked again.
 constexpr int patience_ms = 100;
 
@@ -96,10 +83,9 @@ int open_stream(const std::string& path, bool is_fifo, const std::function<bool(
   }
 }
 
-/// Writes all bytes to a pipe or device that does not block, as its reader takes them. Returns 0 or
-/// an errno code: ECANCELED if `stop` returned true.
-int stream_all(int stream, const char* bytes, std::size_t count,
-               const std::function<bool()>& stop) {
+/// Writes all bytes to a file, or to a pipe or device that does not block, as its reader takes
+/// them. Returns 0 or an errno code: ECANCELED if `stop` returned true.
+int write_all(int stream, const char* bytes, std::size_t count, const std::function<bool()>& stop) {
   while (count > 0) {
     if (stop && stop()) return ECANCELED;
     pollfd ready{stream, POLLOUT, 0};
@@ -263,7 +249,7 @@ void OutputFile::discard() {
 Status OutputFile::write(const void* bytes, std::size_t count) {
   synced_ = false;
   const int code =
-      descriptor_ < 0 ? EBADF : write_all(descriptor_, static_cast<const char*>(bytes), count);
+      descriptor_ < 0 ? EBADF : write_all(descriptor_, static_cast<const char*>(bytes), count, {});
   if (code != 0) return cannot_write(name_, code);
   return {};
 }
@@ -310,7 +296,7 @@ Status OutputFile::commit_stream(const std::function<bool()>& stop) {
     if (count < 0 && errno == EINTR) continue;
     if (count < 0) return cannot_write(name_, errno);
     if (count == 0) break;
-    const int code = stream_all(stream_, buffer.data(), static_cast<std::size_t>(count), stop);
+    const int code = write_all(stream_, buffer.data(), static_cast<std::size_t>(count), stop);
     if (code == ECANCELED) return cannot_write(name_, "interrupted");
     if (code != 0) return cannot_write(name_, code);
     position += count;

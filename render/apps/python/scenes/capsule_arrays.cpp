@@ -3,17 +3,15 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "core/math/geometry.h"
-#include "core/scene/number_text.h"
+#include "render/apps/python/scenes/array_rows.h"
 #include "render/apps/python/values/array_colors.h"
 #include "render/apps/python/values/errors.h"
 #include "render/apps/python/values/presence.h"
-#include "render/files/file/float32.h"
 #include "render/files/scene_file/loaded/primitive_points.h"
 #include "render/memory/available_memory.h"
 
@@ -21,14 +19,6 @@ namespace py = pybind11;
 
 namespace boule::python {
 namespace {
-
-Vec3d point_at(const Numbers& points, std::size_t row) {
-  return {points.at(row, 0), points.at(row, 1), points.at(row, 2)};
-}
-
-Vec3f to_float32_point(const Vec3d& v) {
-  return {float32_or_inf(v.x), float32_or_inf(v.y), float32_or_inf(v.z)};
-}
 
 /// Ends and radii in arrays; what is one stands for all.
 class CapsuleInput {
@@ -59,24 +49,6 @@ class CapsuleInput {
   std::size_t rows_ = 1;
 };
 
-/// Why a row is no capsule.
-Diagnostic explain(const CapsuleInput& input, std::size_t row) {
-  const auto about = [&](const char* argument, const std::string& message) {
-    return Diagnostic::about(argument, "row " + std::to_string(row) + ": " + message);
-  };
-  for (const auto& [name, point] : {std::pair("a", input.a(row)), std::pair("b", input.b(row))}) {
-    for (const double x : {point.x, point.y, point.z}) {
-      if (!std::isfinite(x)) return about(name, "must be finite, is " + number_text(x));
-      if (!to_float32(x)) return about(name, "is too large for a 32-bit float");
-    }
-  }
-  const double radius = input.radius(row);
-  if (!std::isfinite(radius)) return about("radius", "must be finite, is " + number_text(radius));
-  if (!to_float32(radius)) return about("radius", "is too large for a 32-bit float");
-  if (radius > 0) return about("radius", "is too small for a 32-bit float: " + number_text(radius));
-  return about("radius", "must be above 0, is " + number_text(radius));
-}
-
 /// The capsules, checked. Ends of double precision are kept as they are. Without the GIL.
 Result<CapsuleArrays> make_capsules(const CapsuleInput& input) {
   const std::size_t count = input.rows();
@@ -91,9 +63,9 @@ Result<CapsuleArrays> make_capsules(const CapsuleInput& input) {
   if (input.is_double()) arrays.ends.reserve(2 * count);
   for (std::size_t i = 0; i < count; ++i) {
     const Vec3d a = input.a(i), b = input.b(i);
-    arrays.capsules.push_back(
-        {to_float32_point(a), to_float32_point(b), float32_or_inf(input.radius(i)), {}});
-    if (!is_valid(arrays.capsules.back())) return explain(input, i);
+    arrays.capsules.push_back({rounded(a), rounded(b), float32_or_inf(input.radius(i)), {}});
+    if (!is_valid(arrays.capsules.back()))
+      return explain_row(i, {{"a", a}, {"b", b}}, "radius", input.radius(i));
     if (input.is_double()) arrays.ends.insert(arrays.ends.end(), {a, b});
   }
   return arrays;

@@ -4,17 +4,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <limits>
 #include <mutex>
 #include <string>
 #include <utility>
 
 #include "core/math/geometry.h"
-#include "core/scene/number_text.h"
+#include "render/apps/python/scenes/array_rows.h"
 #include "render/apps/python/values/array_colors.h"
 #include "render/apps/python/values/presence.h"
-#include "render/files/file/float32.h"
 #include "render/memory/available_memory.h"
 #include "render/memory/scene_memory.h"
 
@@ -33,37 +31,12 @@ void each_chunk(std::size_t rows, const ParallelFor& parallel_for, const Body& b
   });
 }
 
-Vec3d center_at(const Numbers& centers, std::size_t row) {
-  return {centers.at(row, 0), centers.at(row, 1), centers.at(row, 2)};
-}
-
-Vec3f to_float(const Vec3d& v) {
-  return {float32_or_inf(v.x), float32_or_inf(v.y), float32_or_inf(v.z)};
-}
-
 /// Where they are, before they are rounded.
 SphereExtent extent_of(const SphereInput& input, const ParallelFor& parallel_for) {
   return boule::extent_of(input.centers.rows(), parallel_for,
                           [&](std::size_t i, SphereExtent& extent) {
-                            extent.add(center_at(input.centers, i), input.radii.at(i));
+                            extent.add(point_at(input.centers, i), input.radii.at(i));
                           });
-}
-
-/// Why a row is no sphere.
-Diagnostic explain(const SphereInput& input, std::size_t row, const Vec3d& origin) {
-  const Vec3d center = center_at(input.centers, row) - origin;
-  const double radius = input.radii.at(row);
-  const auto about = [&](const char* argument, const std::string& message) {
-    return Diagnostic::about(argument, "row " + std::to_string(row) + ": " + message);
-  };
-  for (const double x : {center.x, center.y, center.z}) {
-    if (!std::isfinite(x)) return about("centers", "must be finite, is " + number_text(x));
-    if (!to_float32(x)) return about("centers", "is too large for a 32-bit float");
-  }
-  if (!std::isfinite(radius)) return about("radii", "must be finite, is " + number_text(radius));
-  if (!to_float32(radius)) return about("radii", "is too large for a 32-bit float");
-  if (radius > 0) return about("radii", "is too small for a 32-bit float: " + number_text(radius));
-  return about("radii", "must be above 0, is " + number_text(radius));
 }
 
 /// Rounds all rows; the first bad one is the error.
@@ -74,8 +47,8 @@ Status round_all(const SphereInput& input, const Vec3d& origin, std::vector<Sphe
   each_chunk(spheres.size(), parallel_for, [&](std::size_t begin, std::size_t end) {
     bool valid = true;
     for (std::size_t i = begin; i < end; ++i) {
-      spheres[i] = {to_float(center_at(input.centers, i) - origin),
-                    float32_or_inf(input.radii.at(i)), MaterialRef()};
+      spheres[i] = {rounded(point_at(input.centers, i) - origin), float32_or_inf(input.radii.at(i)),
+                    MaterialRef()};
       valid &= is_valid(spheres[i]);
     }
     if (!valid) all_valid = false;
@@ -83,7 +56,9 @@ Status round_all(const SphereInput& input, const Vec3d& origin, std::vector<Sphe
   if (all_valid) return {};
   const auto bad = std::find_if(spheres.begin(), spheres.end(),
                                 [](const Sphere& sphere) { return !is_valid(sphere); });
-  return explain(input, static_cast<std::size_t>(bad - spheres.begin()), origin);
+  const auto row = static_cast<std::size_t>(bad - spheres.begin());
+  return explain_row(row, {{"centers", point_at(input.centers, row) - origin}}, "radii",
+                     input.radii.at(row));
 }
 
 Status check_room(const SphereInput& input) {
@@ -116,7 +91,7 @@ Result<SphereArrays> make_spheres(const SphereInput& input, const ParallelFor& p
   if (!input.centers.is_double()) return arrays;
   arrays.centers.resize(input.centers.rows());
   each_chunk(arrays.centers.size(), parallel_for, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) arrays.centers[i] = center_at(input.centers, i);
+    for (std::size_t i = begin; i < end; ++i) arrays.centers[i] = point_at(input.centers, i);
   });
   return arrays;
 }

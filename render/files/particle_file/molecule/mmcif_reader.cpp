@@ -21,11 +21,7 @@ class MmcifReader : public ParticleReader {
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor&) override {
     const ParticleFrame& found = frames_[frame];
-    if (auto done = check_memory(found.size() * MoleculeColumns::atom_bytes,
-                                 std::to_string(found.size()) + " atoms need");
-        !done) {
-      return done.error();
-    }
+    if (auto done = MoleculeColumns::check_room(found.size()); !done) return done.error();
     return found;
   }
 

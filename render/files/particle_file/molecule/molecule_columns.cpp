@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "render/files/particle_file/frame/element_guess.h"
+#include "render/memory/available_memory.h"
 
 namespace boule {
 namespace {
@@ -66,7 +67,13 @@ MoleculeColumns::MoleculeColumns(MoleculeKind kind, bool water) : kind_(kind), k
   b_factors_.name = "radius";
 }
 
-void MoleculeColumns::reserve(std::size_t atoms) {
+Status MoleculeColumns::check_room(std::uint64_t atoms) {
+  return check_memory(atoms * atom_bytes, std::to_string(atoms) + " atoms need");
+}
+
+Status MoleculeColumns::reserve(std::uint64_t number) {
+  if (auto done = check_room(number); !done) return done;
+  const auto atoms = static_cast<std::size_t>(number);
   positions_.reserve(atoms);
   for (NumberColumn* column : {&ids_, &residue_numbers_, &occupancies_, &b_factors_}) {
     column->values.reserve(atoms);
@@ -75,6 +82,7 @@ void MoleculeColumns::reserve(std::size_t atoms) {
     texts->column.indices.reserve(atoms);
   }
   is_water_.reserve(atoms);
+  return {};
 }
 
 bool MoleculeColumns::is_alternative(const MoleculeAtom& atom) {

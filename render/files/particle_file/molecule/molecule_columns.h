@@ -38,7 +38,10 @@ class MoleculeColumns {
  public:
   MoleculeColumns(MoleculeKind kind, bool water);
 
-  void reserve(std::size_t atoms);
+  /// An error if so many atoms do not fit into memory.
+  static Status check_room(std::uint64_t atoms);
+  /// Makes room for them.
+  Status reserve(std::uint64_t atoms);
   /// The place of the atom in the frame before water is left out; none for other locations.
   std::optional<std::uint32_t> add(const MoleculeAtom& atom);
   void add_bond(const ParticleBond& bond) { bonds_.push_back(bond); }

@@ -8,7 +8,6 @@
 #include "render/files/particle_file/molecule/molecule_columns.h"
 #include "render/files/particle_file/molecule/pdb_records.h"
 #include "render/files/particle_file/text/text_lines.h"
-#include "render/memory/available_memory.h"
 
 namespace boule {
 namespace {
@@ -19,16 +18,10 @@ class PdbReader : public PlacedReader<PdbFrame> {
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor&) override {
     const PdbFrame& place = places_.frames[frame];
-    const auto atoms = static_cast<std::size_t>(place.atoms);
-    if (auto done = check_memory(place.atoms * MoleculeColumns::atom_bytes,
-                                 std::to_string(atoms) + " atoms need");
-        !done) {
-      return done.error();
-    }
+    MoleculeColumns columns(MoleculeKind::residues, options_.water);
+    if (auto done = columns.reserve(place.atoms); !done) return done.error();
     auto cell = cell_of(place);
     if (!cell) return cell.error();
-    MoleculeColumns columns(MoleculeKind::residues, options_.water);
-    columns.reserve(atoms);
     if (auto done = read_atoms(place, columns); !done) return done.error();
     if (place.atoms <= options_.most_bonded) add_bonds(place, columns);
     ParticleFrame read = columns.finish(options_.wanted);

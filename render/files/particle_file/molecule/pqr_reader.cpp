@@ -11,7 +11,6 @@
 #include "render/files/particle_file/molecule/pdb_records.h"
 #include "render/files/particle_file/text/text_lines.h"
 #include "render/files/particle_file/text/text_number.h"
-#include "render/memory/available_memory.h"
 
 namespace boule {
 namespace {
@@ -87,14 +86,8 @@ class PqrReader : public PlacedReader<PdbFrame> {
 
   Result<ParticleFrame> read(std::size_t frame, const ParallelFor&) override {
     const PdbFrame& place = places_.frames[frame];
-    const auto atoms = static_cast<std::size_t>(place.atoms);
-    if (auto done = check_memory(place.atoms * MoleculeColumns::atom_bytes,
-                                 std::to_string(atoms) + " atoms need");
-        !done) {
-      return done.error();
-    }
     MoleculeColumns columns(MoleculeKind::charges, options_.water);
-    columns.reserve(atoms);
+    if (auto done = columns.reserve(place.atoms); !done) return done.error();
     std::size_t points = 0;
     TextLines lines(bytes_.text().substr(place.begin, place.end - place.begin));
     while (!lines.at_end()) {
