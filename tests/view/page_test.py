@@ -265,6 +265,46 @@ class Page(unittest.TestCase):
         browser.keys(Keys.ESCAPE)
         self.assertFalse(browser.find("#rays").is_displayed())
 
+    def test_sides_and_pivot(self):
+        """Looks from each side of the axes; a double click turns around the point that is hit."""
+        browser = self.browser
+        up = browser.camera()["up"]
+        for side, axis, sign in (("x", 0, 1), ("-z", 2, -1), ("y", 1, 1)):
+            before, after = self.moved(
+                lambda side=side: browser.find(f"[data-side='{side}']").click())
+            back = [e - a for e, a in zip(after["eye"], after["look_at"])]
+            far = distance(before["eye"], before["look_at"])
+            self.assertEqual(before["look_at"], after["look_at"])
+            self.assertAlmostEqual(back[axis], sign * far, 9)
+            self.assertNotEqual(after["up"] == up, side == "y")
+        self.moved(lambda: browser.keys("x"))
+        self.moved(lambda: browser.keys("r"))
+        home = browser.camera()
+        x, y = browser.center()
+        for count in (1, 2):
+            for kind in ("mousePressed", "mouseReleased"):
+                browser.cdp("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left",
+                            clickCount=count)
+        browser.wait(f"bouleView.session.camera.look_at[1] !== {home['look_at'][1]!r}", "a pivot")
+        browser.rest()
+        hit = browser.script("return document.querySelector('#hit').textContent")
+        point = [float(word) for word in re.search(r"Point(.*?)Centre", hit).group(1).split(",")]
+        for one, other in zip(browser.camera()["look_at"], point):
+            self.assertAlmostEqual(one, other, 3)
+
+    def test_axes_show_and_go(self):
+        browser = self.browser
+        self.assertEqual(browser.script(
+            "return [...document.querySelectorAll('.axis-name')].map(e => e.textContent).sort().join('')"), "xyz")
+        browser.find("#axes").click()
+        self.assertEqual(browser.script("return document.querySelectorAll('.axis-name').length"), 0)
+        browser.find("#axes").click()
+
+    def test_captions_are_words(self):
+        self.assertEqual(self.browser.script(
+            "return import('./panes.js').then(({sampleText}) => [sampleText(0.107, 16), sampleText(3.26, 16), sampleText(1, 1)])"),
+            ["10 % of the pixels", "3.2 of 16 samples a pixel", "1 of 1 sample a pixel"])
+
     def test_click_sets_lens_focus(self):
         browser = self.browser
         self.assertFalse(browser.find("#click-focus").is_enabled())

@@ -119,6 +119,16 @@ export function fit(camera, {center, radius}, size) {
   return {...changes, eye: subtract(center, scaled(ahead, distance))};
 }
 
+/** Looks from a side, a unit vector, at what it looks at now. `home` is the usual `up`, which would
+ * be seen as a point from its own side. */
+export function lookFrom(camera, side, home) {
+  const {distance} = frameOf(camera);
+  const along = dot(side, unit(home));
+  let up = home;
+  if (Math.abs(along) > 0.99) up = Math.abs(home[1]) > 0.5 ? [0, 0, -Math.sign(along)] : [0, Math.sign(along), 0];
+  return {eye: add(camera.look_at, scaled(side, distance)), up};
+}
+
 /** Where a point is in the camera's frame: to the right, upward, ahead. */
 export function inFrame(camera, point) {
   const {right, above, ahead} = frameOf(camera);

@@ -1,6 +1,6 @@
 // Mouse, touch and keyboard on the pictures become movements of the camera.
 
-import {dolly, fit, orbit, pan, widen} from './camera.js';
+import {dolly, fit, lookFrom, orbit, pan, widen} from './camera.js';
 
 const wheelStep = 0.0015;   // of the logarithm of the distance, for a pixel of the wheel
 const linePixels = 32;      // of a wheel that counts lines
@@ -12,9 +12,10 @@ const restAfter = 150;      // milliseconds after the last turn of the wheel
 
 export class Gestures {
   /** `click(pane, x, y)` is called with a pixel of the full size; `crosshair` moves the cross. */
-  constructor(stage, session, {click, crosshair, frameStep}) {
+  constructor(stage, session, {click, turn, crosshair, frameStep}) {
     this.session = session;
     this.click = click;
+    this.turn = turn;
     this.crosshair = crosshair;
     this.frameStep = frameStep;
     this.pointers = new Map();
@@ -26,6 +27,10 @@ export class Gestures {
     for (const end of ['pointercancel', 'lostpointercapture']) {
       stage.addEventListener(end, (event) => this.up(event, false));
     }
+    stage.addEventListener('dblclick', (event) => {
+      const view = event.target.closest('.view');
+      if (view && session.camera) turn(view.pane, ...this.pixelAt(view, event));
+    });
     stage.addEventListener('wheel', (event) => this.wheel(event), {passive: false});
     stage.addEventListener('contextmenu', (event) => {
       if (event.target.closest('.view')) event.preventDefault();
@@ -97,11 +102,14 @@ export class Gestures {
     this.pinchStart = null;
     this.session.rest();
     if (!isComplete || !this.isClick) return;
-    const box = this.view.getBoundingClientRect();
-    const [width, height] = this.size;
-    const pixel = (share, side) => Math.max(0, Math.min(side - 1, Math.floor(share * side)));
-    this.click(this.view.pane, pixel((event.clientX - box.left) / box.width, width),
-               pixel((event.clientY - box.top) / box.height, height));
+    this.click(this.view.pane, ...this.pixelAt(this.view, event));
+  }
+
+  /** The pixel of the full size that an event is at. */
+  pixelAt(view, event) {
+    const box = view.getBoundingClientRect();
+    const shares = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+    return this.size.map((side, axis) => Math.max(0, Math.min(side - 1, Math.floor(shares[axis] * side))));
   }
 
   wheel(event) {
@@ -149,6 +157,8 @@ export class Gestures {
     else if (key === 'Escape') this.crosshair.hide();
     else if (key === 'f' || key === 'F') this.fitAll();
     else if (key === 'r' || key === 'R') this.reset();
+    else if (key === 't' || key === 'T') this.turn(view.pane, ...this.crosshair.place(view.pane));
+    else if ('xyzXYZ'.includes(key)) this.lookFrom(key.toLowerCase(), shiftKey ? -1 : 1);
     else if (key === ',') this.frameStep(-1);
     else if (key === '.') this.frameStep(1);
     else return false;
@@ -158,6 +168,13 @@ export class Gestures {
   fitAll() {
     const {session} = this;
     session.move(fit(session.camera, session.state.bounds, this.size), false);
+  }
+
+  /** Looks from the side of an axis. */
+  lookFrom(axis, sign) {
+    const {session} = this;
+    const side = ['x', 'y', 'z'].map((name) => (name === axis ? sign : 0));
+    session.move(lookFrom(session.camera, side, session.startCamera.up), false);
   }
 
   reset() {

@@ -1,8 +1,8 @@
 // What is drawn over the pictures: the rays of a pixel where they run in space, and a cross that the
 // keyboard moves.
 
-import {add, inFrame, length, pixelOf, projectionOf, scaled} from './camera.js';
-import {makeSvg} from './dom.js';
+import {add, frameOf, inFrame, length, pixelOf, projectionOf, scaled} from './camera.js';
+import {byId, makeSvg} from './dom.js';
 
 const mostRays = 300;
 const curveSteps = 24;  // of a straight line where the film shows angles
@@ -63,6 +63,7 @@ export class Overlay {
     if (!camera || !state) return;
     const {size} = state.settings;
     const groups = this.visible ? this.paths(camera, size, state.bounds.radius) : [];
+    if (byId('axes').checked) groups.push(...axesOf(camera, size));
     for (const pane of this.panes.panes) {
       pane.overlay.replaceChildren(...groups.map((group) => group.cloneNode(true)));
       if (this.cross?.pane === pane) pane.overlay.append(...crossAt(this.cross.at, size));
@@ -116,6 +117,21 @@ function pathOf(ray, camera, size, reach) {
 function ringAt([x, y], size) {
   const ring = {cx: x, cy: y, r: 5 * Math.max(1, size[0] / 900)};
   return [makeSvg('circle', {...ring, class: 'halo'}), makeSvg('circle', {...ring, class: 'line'})];
+}
+
+// The directions of x, y and z in the lower left corner; the nearest is drawn last.
+function axesOf(camera, size) {
+  const {right, above, ahead} = frameOf(camera);
+  const arm = Math.min(...size) / 14;
+  const from = [1.6 * arm, size[1] - 1.6 * arm];
+  return ['x', 'y', 'z'].map((name, axis) => ({name, axis})).sort((a, b) => ahead[b.axis] - ahead[a.axis])
+      .flatMap(({name, axis}) => {
+        const [x, y] = [right[axis] * arm, -above[axis] * arm];
+        const d = `M${from[0]} ${from[1]}l${x} ${y}`;
+        const text = makeSvg('text', {x: from[0] + 1.3 * x, y: from[1] + 1.3 * y, class: 'axis-name', 'font-size': arm / 2});
+        text.textContent = name;
+        return [makeSvg('path', {d, class: 'halo'}), makeSvg('path', {d, class: `line axis-${name}`}), text];
+      });
 }
 
 function crossAt([x, y], size) {

@@ -20,6 +20,12 @@ export function arrange(count, width, height, aspect, caption, sideBySide) {
   return best;
 }
 
+/** How far a picture is: "11 % of the pixels", "3 of 16 samples a pixel". */
+export function sampleText(done, all) {
+  if (done < 1) return `${Math.floor(100 * done)} % of the pixels`;
+  return `${short(Math.floor(10 * done) / 10, 3)} of ${counted(all, 'sample')} a pixel`;
+}
+
 class Pane {
   constructor(index) {
     this.index = index;
@@ -109,10 +115,10 @@ export class Panes {
       const pane = this.panes[index];
       if (!pane || pane.isDifference) return;
       const {spp} = this.session.state.settings;
-      const parts = [`${short(figures.spp, 3)} of ${spp} samples`, counted(figures.passes, 'pass', 'passes')];
-      if (figures.mrays_per_s > 0) parts.push(`${short(figures.mrays_per_s, 3)} Mray/s`);
+      const parts = [sampleText(figures.spp, spp)];
+      if (figures.mrays_per_s > 0) parts.push(`${short(figures.mrays_per_s, 3)} million rays a second`);
       parts.push(`${short(figures.seconds, 2)} s`);
-      if (figures.scale > 1) parts.push(`1 : ${figures.scale}`);
+      if (figures.scale > 1) parts.push(`1 pixel for ${figures.scale} x ${figures.scale}`);
       pane.figures.textContent = parts.join(' · ');
       pane.bar.style.setProperty('--share', figures.share);
       pane.element.dataset.done = figures.done;
@@ -147,7 +153,7 @@ export class Panes {
     const [width, height] = state.settings.size;
     const area = this.stage.parentElement;
     const isNarrow = matchMedia('(max-width: 820px)').matches;
-    const room = isNarrow ? innerHeight * (this.panes.length > 1 ? 0.58 : 0.5) : this.stage.clientHeight;
+    const room = isNarrow && !document.fullscreenElement ? innerHeight * (this.panes.length > 1 ? 0.58 : 0.5) : this.stage.clientHeight;
     this.captionHeight = this.panes[0].caption.offsetHeight;
     const {columns, width: paneWidth} = arrange(
         this.panes.length, this.stage.clientWidth, room, width / height, this.captionHeight + 8, !isNarrow);

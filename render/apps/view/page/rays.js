@@ -146,8 +146,8 @@ export class Rays {
     if (ray.kind === 'shadow') {
       fact('lets through', ...this.colorNodes(ray.own));
     } else {
-      fact('found itself', ...this.colorNodes(ray.own));
-      fact('returned', ...this.colorNodes(ray.returned));
+      fact('own light', ...this.colorNodes(ray.own));
+      fact('result', ...this.colorNodes(ray.returned));
     }
     return [head, facts];
   }

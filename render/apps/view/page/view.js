@@ -29,6 +29,7 @@ const rays = new Rays(session, overlay);
 const timeline = new Timeline(session);
 const gestures = new Gestures(byId('stage'), session, {
   click: (pane, x, y) => clicked(pane.isDifference ? 0 : pane.index, x, y),
+  turn: (pane, x, y) => clicked(pane.isDifference ? 0 : pane.index, x, y, 'turn'),
   crosshair: overlay,
   frameStep: (count) => timeline.step(count),
 });
@@ -37,8 +38,7 @@ new CameraForm(session, gestures);
 new Particles(session);
 new Share(session);
 
-async function clicked(pane, x, y) {
-  const mode = document.querySelector('#click-mode input:checked').value;
+async function clicked(pane, x, y, mode = document.querySelector('#click-mode input:checked').value) {
   if (mode === 'rays') return rays.pick(pane, x, y);
   let hit;
   try {
@@ -63,6 +63,14 @@ function showLink(kind) {
   document.body.dataset.link = kind;
   if (kind === 'connecting') session.restart();
 }
+
+document.querySelectorAll('[data-side]').forEach((button) => button.addEventListener('click', () => {
+  const {side} = button.dataset;
+  gestures.lookFrom(side.at(-1), side.length > 1 ? -1 : 1);
+}));
+byId('axes').addEventListener('change', () => overlay.draw());
+byId('full-screen').hidden = !document.fullscreenEnabled;
+byId('full-screen').addEventListener('click', () => byId('stage-area').requestFullscreen());
 
 // Shown until it is closed, or a value that was entered after it is right.
 let problemNumber = 0;

@@ -33,10 +33,9 @@ std::string JpegEncoder::encode(const Image& image, float exposure_stops, int qu
   }
   const auto pixels = tone_map(image.alpha.empty() ? image : opaque, exposure_stops);
   Compressor& to = *compressor_;
-  const bool made =
-      to.handle != nullptr &&
-      tjCompress2(to.handle, pixels.data(), image.width, 0, image.height, TJPF_RGB, &to.bytes,
-                  &to.size, quality >= 90 ? TJSAMP_444 : TJSAMP_420, quality, TJFLAG_FASTDCT) == 0;
+  const bool made = to.handle != nullptr &&
+                    tjCompress2(to.handle, pixels.data(), image.width, 0, image.height, TJPF_RGB,
+                                &to.bytes, &to.size, TJSAMP_444, quality, TJFLAG_FASTDCT) == 0;
   if (!made) return {};
   return {reinterpret_cast<const char*>(to.bytes), to.size};
 }
