@@ -15,8 +15,8 @@
 
 namespace boule::cli {
 
-/// Where a checkpoint is, and how often it is replaced.
-struct CheckpointChoice {
+/// A file that is replaced again and again while a picture is rendered.
+struct TimedFile {
   std::string file;
   double interval = 60;  ///< seconds
 };
@@ -67,10 +67,11 @@ struct RenderCommand : RenderJob, RunOptions {
   std::optional<double> fps;           ///< of a movie
   std::string movie;   ///< that is made of the pictures on standard output; empty: none
   std::string legend;  ///< a file for it; empty: none
-  std::optional<CheckpointChoice> checkpoint;
-  bool resume = false;         ///< go on from the checkpoint
-  std::optional<Shard> shard;  ///< the share of the picture that goes into a film file
-  bool claim = false;          ///< share the series with other processes
+  std::optional<TimedFile> checkpoint;
+  std::optional<TimedFile> preview;  ///< the picture as far as it is
+  bool resume = false;               ///< go on from the checkpoint
+  std::optional<Shard> shard;        ///< the share of the picture that goes into a film file
+  bool claim = false;                ///< share the series with other processes
   MpiUse mpi = MpiUse::automatic;
 };
 

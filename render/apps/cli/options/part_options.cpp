@@ -5,9 +5,9 @@
 
 namespace boule::cli {
 
-std::optional<CheckpointChoice> parse_checkpoint(const std::string& text) {
+std::optional<TimedFile> parse_timed_file(const std::string& text) {
   const std::size_t comma = text.rfind(',');
-  CheckpointChoice choice{text};
+  TimedFile choice{text};
   if (comma != std::string::npos) {
     const auto interval = parse_duration(text.substr(comma + 1));
     if (!interval) return std::nullopt;
@@ -28,11 +28,14 @@ std::optional<Shard> parse_shard(const std::string& text) {
 
 void add_part_options(CLI::App& app, RenderCommand& command) {
   start_group(app, "Long runs and many machines");
-  add_parsed(app, "--checkpoint", command.checkpoint, parse_checkpoint,
+  add_parsed(app, "--checkpoint", command.checkpoint, parse_timed_file,
              "FILE or FILE,TIME such as run.film,60s", "FILE[,TIME]",
              "Save what is rendered every TIME (60s) and when a signal or limit stops it");
   app.add_flag("--resume", command.resume,
                "Go on from the checkpoint, where there is one; --spp may be greater");
+  add_parsed(app, "--preview", command.preview, parse_timed_file,
+             "IMAGE or IMAGE,TIME such as now.png,10s", "IMAGE[,TIME]",
+             "Write the picture as far as it is every TIME (60s)");
   add_parsed(app, "--shard", command.shard, parse_shard, "K/N with 1 <= K <= N, such as 3/8", "K/N",
              "Render share K of N into a .film file; boule merge makes the picture");
   app.add_flag("--claim", command.claim,

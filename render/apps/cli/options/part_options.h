@@ -15,7 +15,7 @@ void add_part_options(CLI::App& app, RenderCommand& command);
 void add_merge(CLI::App& app, MergeCommand& command);
 
 /// "FILE" or "FILE,TIME", FILE not empty.
-std::optional<CheckpointChoice> parse_checkpoint(const std::string& text);
+std::optional<TimedFile> parse_timed_file(const std::string& text);
 
 /// "K/N", 1 <= K <= N <= 1000000.
 std::optional<Shard> parse_shard(const std::string& text);

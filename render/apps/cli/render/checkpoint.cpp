@@ -15,7 +15,7 @@
 namespace boule::cli {
 
 Result<Checkpoint> Checkpoint::open(const RenderCommand& command, ExitCode& code) {
-  const CheckpointChoice& choice = *command.checkpoint;
+  const TimedFile& choice = *command.checkpoint;
   code = failed;
   if (auto done = film_file::check_support(); !done) return done.error();
   auto lock = FileLock::take(choice.file + ".lock");

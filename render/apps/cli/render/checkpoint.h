@@ -34,10 +34,10 @@ class Checkpoint {
   [[nodiscard]] double interval() const { return choice_.interval; }
 
  private:
-  Checkpoint(CheckpointChoice choice, bool resume, FileLock lock)
+  Checkpoint(TimedFile choice, bool resume, FileLock lock)
       : choice_(std::move(choice)), resume_(resume), lock_(std::move(lock)) {}
 
-  CheckpointChoice choice_;
+  TimedFile choice_;
   bool resume_;
   FileLock lock_;
 };

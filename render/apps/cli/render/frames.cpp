@@ -41,6 +41,8 @@ Status check_single(const RenderCommand& command) {
   };
   if (has_wide_frame_slot(command.output)) return refuse(command.output, "--output");
   if (has_wide_frame_slot(command.stats.file)) return refuse(command.stats.file, "--stats");
+  if (command.preview && has_wide_frame_slot(command.preview->file))
+    return refuse(command.preview->file, "--preview");
   return check_single_scene(command.scene);
 }
 
@@ -60,6 +62,7 @@ RenderCommand command_of_frame(const RenderCommand& command, int frame) {
   one.scene = frame_name(command.scene, frame);
   one.output = frame_name(command.output, frame);
   one.stats.file = frame_name(command.stats.file, frame);
+  if (one.preview) one.preview->file = frame_name(command.preview->file, frame);
   if (one.checkpoint) one.checkpoint->file = frame_name(command.checkpoint->file, frame);
   return one;
 }

@@ -26,6 +26,21 @@ void PartRun::begin_interval() {
   if (checkpoint_ != nullptr) due_ = Clock::now() + time_span(checkpoint_->interval());
 }
 
+void PartRun::show_every(double seconds, std::function<void()> show) {
+  show_interval_ = seconds;
+  show_ = std::move(show);
+  show_due_ = Clock::now() + time_span(seconds);
+}
+
+/// Replaces what it is time for: the checkpoint, and the picture as far as it is.
+Status PartRun::write_due() {
+  if (Clock::now() >= show_due_) {
+    show_();
+    show_due_ = Clock::now() + time_span(show_interval_);
+  }
+  return Clock::now() >= due_ ? save() : Status();
+}
+
 Status PartRun::run(const std::vector<PixelRect>& blocks) {
   head_.blocks = blocks;
   if (auto done = load(); !done) return done;
@@ -87,9 +102,7 @@ Status PartRun::run_pass(const LivePass& pass, double begin) {
         render_some(rest, {done, std::max(pass.share, done), 0, measured_pixels(rest)}, task);
     if (!ended && !StopGuard::flag()) return ended;
     if (StopGuard::flag()) return save_stopped();
-    if (checkpoint_ != nullptr && is_due()) {
-      if (auto saved = save(); !saved) return saved;
-    }
+    if (auto saved = write_due(); !saved) return saved;
   }
 }
 
@@ -177,7 +190,7 @@ void PartRun::tell_measured(const PixelRect& block) {
   live_.progress().add_measured(noise_so_far(sheet_.measured(), block, renderer_.options().spp));
 }
 
-bool PartRun::is_due() const { return Clock::now() >= due_; }
+bool PartRun::is_due() const { return Clock::now() >= std::min(due_, show_due_); }
 
 Status PartRun::save() {
   if (auto done = checkpoint_->save(head_, sheet_); !done) return done;

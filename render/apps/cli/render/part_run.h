@@ -38,6 +38,9 @@ class PartRun {
   PartRun& operator=(const PartRun&) = delete;
   virtual ~PartRun() = default;
 
+  /// Calls `show` every so many seconds, between blocks, while the picture grows in passes.
+  void show_every(double seconds, std::function<void()> show);
+
   /// An error if it was cancelled or failed; saved() then tells whether nothing is lost.
   virtual Status run(const std::vector<PixelRect>& blocks);
   /// Whether the error of run() is one, although a StopGuard's flag is raised.
@@ -94,10 +97,14 @@ class PartRun {
   Status render_some(const std::vector<PixelRect>& blocks, const LiveProgress::PassSpan& span,
                      const BlockTask& task);
   Status save_stopped();
+  Status write_due();
   [[nodiscard]] bool has(const PixelRect& block, const LivePass& pass) const;
   void find_extras(BlockTools& tools, const PixelRect& block, PartSheet& sheet) const;
 
   Clock::time_point due_ = Clock::time_point::max();
+  Clock::time_point show_due_ = Clock::time_point::max();
+  double show_interval_ = 0;  ///< seconds
+  std::function<void()> show_;
   double resumed_ = 0;
   bool saved_ = false;
   bool shows_ = false;

@@ -15,6 +15,16 @@
 namespace boule::cli {
 namespace {
 
+/// An error if a file beside the picture would replace one of these.
+Status check_beside(const std::string& file, const char* what, const char* option,
+                    const std::vector<std::string>& files) {
+  RunOptions beside;
+  beside.output = file;
+  auto done = check_data_files(beside, what, files);
+  if (!done) done.error().key = option;
+  return done;
+}
+
 /// An error if a legend is asked for and there is none, or if it would replace a file that is read.
 Status check_legend(const RenderCommand& command, const std::vector<ParticleColors>& colors,
                     const std::vector<std::string>& files) {
@@ -23,11 +33,15 @@ Status check_legend(const RenderCommand& command, const std::vector<ParticleColo
     return wrong_option("the scene has no particles whose colours mean numbers or species",
                         "--legend");
   }
-  RunOptions legend;
-  legend.output = command.legend;
-  auto done = check_data_files(legend, "legend", files);
-  if (!done) done.error().key = "--legend";
-  return done;
+  return check_beside(command.legend, "legend", "--legend", files);
+}
+
+/// What the preview would be as a picture of its own.
+RenderCommand command_of_preview(const RenderCommand& command) {
+  RenderCommand shown = command;
+  shown.output = command.preview->file;
+  shown.format.reset();
+  return shown;
 }
 
 /// An error if the picture cannot have what is drawn on it.
@@ -41,6 +55,23 @@ Status check_overlay(const RenderCommand& command, const ImageFormat& format) {
                       "--overlay");
 }
 
+/// An error if there can be no picture of this name before the picture is finished.
+Status check_preview(const RenderCommand& command) {
+  if (!command.preview) return {};
+  const std::string& file = command.preview->file;
+  if (command.shard) return wrong_option("is of pictures, not of a shard", "--preview");
+  const RenderCommand shown = command_of_preview(command);
+  const ImageFormat* const format = picture_format(shown);
+  if (format == nullptr) {
+    return wrong_option("no picture format has the extension of " + quote(file) +
+                            ", expected one of " + known_image_extensions(),
+                        "--preview");
+  }
+  auto done = check_overlay(shown, *format);
+  if (!done) return wrong_option(done.error().message, "--preview");
+  return check_beside(file, "preview", "--preview", {command.scene, command.output});
+}
+
 }  // namespace
 
 bool needs_overlay_module(const RenderCommand& command) {
@@ -50,6 +81,7 @@ bool needs_overlay_module(const RenderCommand& command) {
 
 Status check_command(const RenderCommand& command) {
   if (auto done = check_part_options(command); !done) return done;
+  if (auto done = check_preview(command); !done) return done;
   if (command.shard && !command.overlay.empty()) {
     return wrong_option(
         "is drawn on finished pictures, not on a shard; boule merge does not know the scene",
@@ -90,6 +122,8 @@ Status check_outputs(const RenderCommand& command) {
   if (auto done = check_stats_target(command.stats); !done) return done;
   if (auto done = command.legend.empty() ? Status() : check_output(command.legend); !done)
     return done;
+  if (auto done = command.preview ? check_output(command.preview->file) : Status(); !done)
+    return done;
   if (command.output == standard_output) return check_standard_output();
   std::error_code ignored;
   const bool may_stay = command.skip_existing && std::filesystem::exists(command.output, ignored);
@@ -99,11 +133,19 @@ Status check_outputs(const RenderCommand& command) {
 Status check_loaded(const RenderCommand& command, const SceneLoader& loader,
                     const LoadedScene& loaded) {
   if (auto done = check_legend(command, loader.colors(), loaded.data_files); !done) return done;
+  if (command.preview) {
+    auto done = check_beside(command.preview->file, "preview", "--preview", loaded.data_files);
+    if (!done) return done;
+  }
   return check_data_files(command, "picture", loaded.data_files);
 }
 
 Status check_transparency(const RenderOptions& options, const RenderCommand& command) {
   if (command.shard) return {};  // merge knows the picture's format
+  if (command.preview && options.transparent &&
+      !picture_format(command_of_preview(command))->alpha) {
+    return wrong_option("cannot be transparent, expected an .exr or .png file", "--preview");
+  }
   const ImageFormat& format = *picture_format(command);
   if (!options.transparent || format.alpha) return {};
   return wrong_option(std::string("a .") + format.extension +

@@ -42,8 +42,8 @@ PictureShape shape_of(const RenderOptions& options) {
 /// Whether the file is written while the picture is rendered. Channels come first as a whole, what
 /// is kept or shown unfinished is in memory as a whole, and so is what goes into a pipe.
 bool comes_in_bands(const RenderCommand& command) {
-  return !command.partial && !command.checkpoint && !command.shard && !command.aovs.any() &&
-         !is_stream(command.output) && command.output != standard_output &&
+  return !command.partial && !command.checkpoint && !command.preview && !command.shard &&
+         !command.aovs.any() && !is_stream(command.output) && command.output != standard_output &&
          command.overlay.empty() && !is_page_name(command.output);
 }
 
@@ -51,6 +51,7 @@ bool comes_in_bands(const RenderCommand& command) {
 RenderOptions run_options(const Scene& scene, const RenderCommand& command) {
   RenderOptions options = options_of(command, scene);
   options.in_bands = comes_in_bands(command);
+  if (command.preview && !command.order) options.order = PixelOrder::progressive;
   if (command.partial || command.time_limit || command.checkpoint)
     options.cancel = &StopGuard::flag();
   return options;
@@ -188,7 +189,8 @@ ExitCode Rendering::render(Renderer& renderer) {
   const bool stops = command_.partial || command_.checkpoint || team_ != nullptr;
   const StopGuard guard(stops ? OnSignal::stop : OnSignal::leave);
   live_.start_time_limit(command_.time_limit);
-  if (command_.checkpoint || command_.shard || team_ != nullptr) return render_parts(renderer);
+  if (command_.checkpoint || command_.preview || command_.shard || team_ != nullptr)
+    return render_parts(renderer);
   const ExitCode end =
       renderer.options().in_bands ? render_bands(renderer) : render_whole(renderer);
   return end == done && StopGuard::caught() != 0 ? interrupted_by(StopGuard::caught()) : end;

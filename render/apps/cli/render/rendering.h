@@ -61,8 +61,13 @@ class Rendering {
   /// The same for a picture whose samples are kept: with a checkpoint, or of which this is a shard.
   ExitCode render_parts(Renderer& renderer);
   ExitCode prepare_parts(RenderOptions& options);
+  [[nodiscard]] Image image_of(const PartRun& run, const FilmHead& head) const;
+  /// Writes the picture as far as it is, if a preview of it is asked for. A note if it cannot.
+  void show(const Renderer& renderer, const PartRun& run, const FilmHead& head);
   ExitCode write_parts(Renderer& renderer, PartRun& run, const FilmHead& head);
   ExitCode write_film(const PartRun& run, const FilmHead& head);
+  /// Whether the picture is written before it is finished.
+  [[nodiscard]] bool shows_unfinished() const { return command_.partial || command_.preview; }
   [[nodiscard]] bool can_show(const PartRun& run) const;
   ExitCode explain_parts(const Diagnostic& error, const PartRun& run) const;
   [[nodiscard]] FilmHead film_head(const Renderer& renderer) const;
@@ -72,10 +77,11 @@ class Rendering {
   [[nodiscard]] bool writes() const { return team_ == nullptr || team_->leads(); }
   ExitCode explain(const Diagnostic& error) const;
   ExitCode write(const Image& image, ImageFileOptions options);
-  Status write_shown(const Image& image, ImageFileOptions file) const;
+  Status write_shown(const Image& image, const std::string& output, ImageFileOptions file) const;
   /// Calls write(options), with what it must do at signals.
   template <class Write>
   Status guarded_write(ImageFileOptions options, const Write& write);
+  void tell_written() const;
   ExitCode finish(const Renderer& renderer, const Image& image);
   void tell_end(const Image& image) const;
   [[nodiscard]] bool tells_of_itself() const;

@@ -23,7 +23,7 @@ std::vector<PixelRect> blocks_of(const RenderCommand& command, const Renderer& r
   const RenderOptions& options = renderer.options();
   std::vector<PixelRect> blocks =
       blocks_of_shard(renderer.rect(), options.tile, command.shard.value_or(Shard{}));
-  if (command.partial && options.order == PixelOrder::rows) {
+  if ((command.partial || command.preview) && options.order == PixelOrder::rows) {
     std::sort(blocks.begin(), blocks.end(), [](const PixelRect& a, const PixelRect& b) {
       return a.y0 != b.y0 ? a.y0 < b.y0 : a.x0 < b.x0;
     });
@@ -77,14 +77,20 @@ FilmHead Rendering::film_head(const Renderer& renderer) const {
   head.spp = options.spp;
   head.transparent = options.transparent;
   head.kinds = kinds_of(options);
-  if (command_.partial) head.order = options.order;
+  if (shows_unfinished()) head.order = options.order;
   return head;
 }
 
 std::unique_ptr<PartRun> Rendering::part_run(Renderer& renderer, FilmHead& head) {
   const Checkpoint* const checkpoint = checkpoint_ ? &*checkpoint_ : nullptr;
-  if (team_ == nullptr)
-    return std::make_unique<PartRun>(renderer, live_, head, checkpoint, command_.partial);
+  if (team_ == nullptr) {
+    auto run = std::make_unique<PartRun>(renderer, live_, head, checkpoint, shows_unfinished());
+    if (command_.preview) {
+      run->show_every(command_.preview->interval,
+                      [this, &renderer, &head, of = run.get()] { show(renderer, *of, head); });
+    }
+    return run;
+  }
   return std::make_unique<TeamRun>(renderer, live_, head, checkpoint, *team_,
                                    command_.frame.value_or(0));
 }
@@ -141,6 +147,13 @@ void Rendering::add_team(const Renderer& renderer, const TeamRun& run) {
                              counted(traffic.letters, "letter"), traffic.bytes));
 }
 
+/// The picture, as far as it is.
+Image Rendering::image_of(const PartRun& run, const FilmHead& head) const {
+  const Alpha alpha = head.transparent ? Alpha::coverage : Alpha::none;
+  return partial_ ? run.sheet().partial_image(head.order, alpha, run.preview())
+                  : run.sheet().image(alpha);
+}
+
 ExitCode Rendering::write_parts(Renderer& renderer, PartRun& run, const FilmHead& head) {
   if (command_.shard) {
     const ExitCode written = write_film(run, head);
@@ -151,12 +164,11 @@ ExitCode Rendering::write_parts(Renderer& renderer, PartRun& run, const FilmHead
     return finish(renderer, size);
   }
   if (head.kinds.measured) noise_ = noise_reached(run.sheet().measured(), head.spp);
-  const Alpha alpha = alpha_of(renderer.options());
-  const Image image = partial_ ? run.sheet().partial_image(head.order, alpha, run.preview())
-                               : run.sheet().image(alpha);
+  const Image image = image_of(run, head);
   ImageFileOptions options = file_options(renderer);
   options.channels = run.sheet().release_channels();
   const ExitCode written = write(image, options);
+  if (written == done && command_.preview) show(renderer, run, head);
   return written == done ? finish(renderer, image) : written;
 }
 

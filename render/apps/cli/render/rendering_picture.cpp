@@ -102,35 +102,54 @@ Status Rendering::guarded_write(ImageFileOptions options, const Write& write) {
   };
   status = write(options);
   removal.reset();
-  if (status) {
-    set_written(live_.is_series() ? "the frames up to this one had been written"
-                                  : "the picture had been written");
-  }
   return status;
 }
 
+void Rendering::tell_written() const {
+  set_written(live_.is_series() ? "the frames up to this one had been written"
+                                : "the picture had been written");
+}
+
 /// The picture with its overlay.
-Status Rendering::write_shown(const Image& image, ImageFileOptions file) const {
-  if (is_page_name(command_.output)) return write_page(image, overlay_, command_.output, file);
+Status Rendering::write_shown(const Image& image, const std::string& output,
+                              ImageFileOptions file) const {
+  if (is_page_name(output)) return write_page(image, overlay_, output, file);
   if (!overlay_.parts.empty()) {
     auto layer = overlay_layer(overlay_, image, file.exposure_stops);
     if (!layer) return layer.error();
     file.layer = std::move(layer).value();
   }
-  return command_.output == standard_output
-             ? send_picture(image, *command_.format, command_.movie, file)
-             : write_image(image, command_.output, file);
+  return output == standard_output ? send_picture(image, *command_.format, command_.movie, file)
+                                   : write_image(image, output, file);
 }
 
 ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
   const Stopwatch watch;
   const int caught = StopGuard::caught();
-  const Status status = guarded_write(
-      std::move(options), [&](const ImageFileOptions& file) { return write_shown(image, file); });
+  const Status status = guarded_write(std::move(options), [&](const ImageFileOptions& file) {
+    auto written = write_shown(image, command_.output, file);
+    if (written) tell_written();
+    return written;
+  });
   exit_if_interrupted();
   if (!status && StopGuard::caught() != caught) leave_as_caught();
   stats_.write_seconds = watch.seconds();
   return status ? done : refuse(status.error(), command_, failed);
+}
+
+void Rendering::show(const Renderer& renderer, const PartRun& run, const FilmHead& head) {
+  if (run.sheet().done() == 0 && run.preview().total_samples() == 0) return;
+  const PartialSamples samples = samples_of(run.sheet(), head.blocks, head.spp);
+  const auto before = std::exchange(partial_, samples);
+  if (samples.done == samples.all) partial_.reset();
+  const Image image = image_of(run, head);
+  ImageFileOptions options = file_options(renderer);
+  partial_ = before;
+  const Status shown = guarded_write(std::move(options), [&](const ImageFileOptions& file) {
+    return write_shown(image, command_.preview->file, file);
+  });
+  exit_if_interrupted();
+  if (!shown) report_.note_once("boule: note: no preview: " + format_diagnostic(shown.error()));
 }
 
 /// Rendering and writing at the same time.
@@ -150,7 +169,9 @@ ExitCode Rendering::render_bands(Renderer& renderer) {
     cancelled = !done && StopGuard::flag();
     if (!done) return done;
     live_.start_stage("writing " + printable(shown_output(command_)));
-    return writer.value().finish();
+    done = writer.value().finish();
+    if (done) tell_written();
+    return done;
   });
   exit_if_interrupted();
   if (cancelled) return explain(status.error());

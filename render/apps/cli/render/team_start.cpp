@@ -67,6 +67,7 @@ Status check_team(const RenderCommand& command) {
     return wrong_option("shares a series without MPI, which deals out frames itself", "--claim");
   if (is_movie_name(command.output))
     return wrong_option("a movie is made by one process: --mpi never makes it so", "--output");
+  if (command.preview) return wrong_option("is for one process, not with MPI", "--preview");
   if (command.partial)
     return wrong_option("is for one process: with MPI it is --checkpoint", "--partial");
   return {};
