@@ -29,6 +29,18 @@ tarball=build/package/boule-$version.tar.gz
 git archive --format=tar --prefix="boule-$version/" HEAD | gzip -9n | cmp - "$tarball" ||
   fail "the same commit makes another tarball"
 (./bootstrap.sh test) || fail "a test has failed"
+./bootstrap.sh wheel
+# As root the packages and the wheel are installed and used in roots that have nothing of Boule's.
+if ((EUID == 0)) && command -v debootstrap >/dev/null; then
+  root=$(mktemp -d)
+  trap 'rm -rf "$root"' EXIT
+  debootstrap --variant=minbase bookworm "$root/packages" >"$root/log"
+  tests/packages/trial.sh build/package "$root/packages"
+  debootstrap --variant=minbase --include=python3,python3-pip,python3-numpy bookworm "$root/wheel" >"$root/log"
+  tests/packages/wheel_trial.sh build/wheel/*.whl "$root/wheel"
+else
+  echo "release: the trials in clean roots need root and debootstrap: they were left out"
+fi
 
 echo "release: $(sha256sum "$tarball")"
 echo "release: boule $version is ready. It is tagged by"
