@@ -20,6 +20,7 @@ export class Gestures {
     this.frameStep = frameStep;
     this.pointers = new Map();
     this.pinchStart = null;
+    this.clicked = null;  // the pixel of the last click
     stage.addEventListener('pointerdown', (event) => this.down(event));
     stage.addEventListener('pointermove', (event) => this.moved(event));
     stage.addEventListener('pointerup', (event) => this.up(event, true));
@@ -29,7 +30,7 @@ export class Gestures {
     }
     stage.addEventListener('dblclick', (event) => {
       const view = event.target.closest('.view');
-      if (view && session.camera) turn(view.pane, ...this.pixelAt(view, event));
+      if (view && this.clicked) turn(view.pane, ...this.clicked);  // mouse events have whole numbers
     });
     stage.addEventListener('wheel', (event) => this.wheel(event), {passive: false});
     stage.addEventListener('contextmenu', (event) => {
@@ -102,7 +103,8 @@ export class Gestures {
     this.pinchStart = null;
     this.session.rest();
     if (!isComplete || !this.isClick) return;
-    this.click(this.view.pane, ...this.pixelAt(this.view, event));
+    this.clicked = this.pixelAt(this.view, event);
+    this.click(this.view.pane, ...this.clicked);
   }
 
   /** The pixel of the full size that an event is at. */
