@@ -29,16 +29,21 @@ void PartRun::begin_interval() {
 void PartRun::show_every(double seconds, std::function<void()> show) {
   show_interval_ = seconds;
   show_ = std::move(show);
-  show_due_ = Clock::now() + time_span(seconds);
 }
 
 /// Replaces what it is time for: the checkpoint, and the picture as far as it is.
 Status PartRun::write_due() {
-  if (Clock::now() >= show_due_) {
+  const auto begin = Clock::now();
+  if (begin >= show_due_) {
     show_();
     show_due_ = Clock::now() + time_span(show_interval_);
   }
-  return Clock::now() >= due_ ? save() : Status();
+  auto saved = begin >= due_ ? save() : Status();
+  // At least as long as writing took, the picture goes on.
+  const auto end = Clock::now();
+  due_ = std::max(due_, end + (end - begin));
+  show_due_ = std::max(show_due_, end + (end - begin));
+  return saved;
 }
 
 Status PartRun::run(const std::vector<PixelRect>& blocks) {
@@ -46,6 +51,7 @@ Status PartRun::run(const std::vector<PixelRect>& blocks) {
   if (auto done = load(); !done) return done;
   if (auto done = shows_ ? begin_shown() : Status(); !done) return done;
   begin_interval();
+  if (show_) show_due_ = Clock::now() + time_span(show_interval_);
   const int spp = renderer_.options().spp;
   const bool at_once = !shows_ || head_.kinds.measured;
   const LivePasses passes(at_once ? PixelOrder::tiles : head_.order, renderer_.rect(), spp);

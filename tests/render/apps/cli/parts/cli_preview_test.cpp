@@ -73,7 +73,7 @@ TEST_F(Preview, FaultsAreToldBeforeRendering) {
   const auto refuse = [&](const std::string& preview, const std::vector<std::string>& more = {}) {
     std::vector<std::string> words = {"--preview", preview};
     words.insert(words.end(), more.begin(), more.end());
-    EXPECT_THAT(refused_run(render("out.exr", words), 2).err, HasSubstr("--preview"));
+    EXPECT_THAT(refused_run(plain("out.exr", words), 2).err, HasSubstr("--preview"));
   };
   refuse(path("now.xyz"));
   refuse(path("out.exr"));
@@ -81,7 +81,7 @@ TEST_F(Preview, FaultsAreToldBeforeRendering) {
   refuse(path("now.jpg"), {"--background", "transparent"});
   refuse(path("now.####.png"));
   refuse(path("now.png") + ",0s");
-  refused_run(render("out.exr", {"--preview", path("nowhere/now.png")}), 1);
+  refused_run(plain("out.exr", {"--preview", path("nowhere/now.png")}), 1);
   EXPECT_THAT(files(), ElementsAre("scene.toml"));
 }
 
