@@ -180,23 +180,26 @@ class AnyCapsule : public AnyHit<one_ray> {
 /// gives the lanes that need a search as bits, and single(rays, index) for rays that go alone.
 /// `near`: as CapsulesNear finds them. Groups of rays without any are passed over.
 template <class Wanted, class Packet, class Single>
-BOULE_INLINE void for_each_packet(const CapsulesNear& capsules, const RayStream& rays, Form form,
-                                  const Wanted& wanted, const Packet& packet,
+BOULE_INLINE void for_each_packet(const CapsulesNear& capsules, const RayStream& rays,
+                                  const Query& query, const Wanted& wanted, const Packet& packet,
                                   const Single& single) {
+  const Form form = query.form;
   const PaddedStream stream(rays);
   RayLanes lanes;
-  unsigned near = CapsulesNear::all;
+  NearCapsules near;
+  std::size_t known_to = 0;  // of these rays `near` is known
   for (std::size_t first = 0; first < rays.size; first += width) {
-    if (first % tuning::capsule_group == 0) {
-      const std::size_t left = rays.size - first;
-      const std::size_t count = left < tuning::capsule_group ? left : tuning::capsule_group;
-      near = capsules.find(stream, first, first + count);
-    }
-    if (near == 0) continue;
     const std::size_t live = stream.live(first);
     unsigned left = wanted(first, live);
     if (left == 0) continue;
-    if (form == Form::single || count_bits(left) <= static_cast<int>(tuning::most_single_rays)) {
+    if (first >= known_to) {
+      const std::size_t end = (first / tuning::capsule_group + 1) * tuning::capsule_group;
+      known_to = end < rays.size ? end : rays.size;
+      near = capsules.find(stream, query.coherence, first, known_to);
+    }
+    if (!near.any) continue;
+    const bool few_rays = count_bits(left) <= static_cast<int>(tuning::most_single_rays);
+    if (form == Form::single || (few_rays && !near.listed)) {
       for (; left != 0; left &= left - 1) {
         const std::size_t index = first + static_cast<std::size_t>(__builtin_ctz(left));
         load_single(rays, index, lanes);
@@ -212,25 +215,24 @@ BOULE_INLINE void for_each_packet(const CapsulesNear& capsules, const RayStream&
 /// Searches the capsules for a packet.
 template <class Best>
 BOULE_INLINE void search_near(const RayLanes& rays, const CapsuleView& capsules,
-                              const CapsulesNear& known, unsigned near, Best& best) {
-  if (!known.few() || count_bits(near) > tuning::most_capsules_alone) {
+                              const NearCapsules& near, Best& best) {
+  if (!near.listed) {
     search_capsules<OneForAll>(rays, capsules, best);
     return;
   }
-  const BlockCapsules<OneForAll> block{capsules.blocks[0], capsules.id, 0};
-  for (; near != 0 && !best.done(); near &= near - 1)
-    meet_step(rays, block, static_cast<std::size_t>(__builtin_ctz(near)), 0, best);
+  for (int i = 0; i < near.size && !best.done(); ++i)
+    meet_one(rays, capsules, near.slot[i], 0, best);
 }
 
-void trace_all(const CapsuleView& capsules, const RayStream& rays, Form form,
+void trace_all(const CapsuleView& capsules, const RayStream& rays, const Query& query,
                const HitStream& hits) {
   CapsuleQueue<HitStream> queue(rays, capsules, hits);
   const CapsulesNear known(capsules);
   for_each_packet(
-      known, rays, form, [](std::size_t, std::size_t live) { return first_lanes(live); },
-      [&](const RayLanes& packet, std::size_t first, std::size_t live, unsigned near) {
+      known, rays, query, [](std::size_t, std::size_t live) { return first_lanes(live); },
+      [&](const RayLanes& packet, std::size_t first, std::size_t live, const NearCapsules& near) {
         NearestCapsules<false> nearest(packet, first, load(hits.t + first), queue);
-        search_near(packet, capsules, known, near, nearest);
+        search_near(packet, capsules, near, nearest);
         nearest.finish(first_lanes(live));
       },
       [&](const RayLanes& ray, std::size_t index) {
@@ -241,23 +243,20 @@ void trace_all(const CapsuleView& capsules, const RayStream& rays, Form form,
   queue.finish();
 }
 
-void trace_all(const CapsuleView& capsules, const RayStream& rays, Form form,
+void trace_all(const CapsuleView& capsules, const RayStream& rays, const Query& query,
                std::uint8_t* occluded) {
   const auto open = [&](std::size_t first, std::size_t live) {
-    unsigned lanes = 0;
-    for (std::size_t lane = 0; lane < live; ++lane)
-      lanes |= (occluded[first + lane] == 0 ? 1U : 0U) << lane;
-    return lanes;
+    return ~bits(load_set(occluded + first)) & first_lanes(live);
   };
   CapsuleQueue<std::uint8_t*> queue(rays, capsules, occluded);
   const CapsulesNear known(capsules);
   for_each_packet(
-      known, rays, form, open,
-      [&](const RayLanes& packet, std::size_t first, std::size_t live, unsigned near) {
+      known, rays, query, open,
+      [&](const RayLanes& packet, std::size_t first, std::size_t live, const NearCapsules& near) {
         AnyCapsule<false> any(packet, first, ~open(first, live) & all_lanes, queue);
-        search_near(packet, capsules, known, near, any);
-        for (std::size_t lane = 0; lane < live; ++lane)
-          occluded[first + lane] |= static_cast<std::uint8_t>(any.hit >> lane & 1U);
+        search_near(packet, capsules, near, any);
+        for (unsigned hit = any.hit & first_lanes(live); hit != 0; hit &= hit - 1)
+          occluded[first + static_cast<std::size_t>(__builtin_ctz(hit))] = 1;
       },
       [&](const RayLanes& ray, std::size_t index) {
         AnyCapsule<true> any(ray, index, 0, queue);
@@ -270,12 +269,13 @@ void trace_all(const CapsuleView& capsules, const RayStream& rays, Form form,
 }  // namespace
 
 template <class Answers>
-void trace_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
+void trace_capsules(const CapsuleView& capsules, const RayStream& rays, const Query& query,
                     const Answers& answers) {
-  trace_all(capsules, rays, form, answers);
+  trace_all(capsules, rays, query, answers);
 }
 
-template void trace_capsules(const CapsuleView&, const RayStream&, Form, const HitStream&);
-template void trace_capsules(const CapsuleView&, const RayStream&, Form, std::uint8_t* const&);
+template void trace_capsules(const CapsuleView&, const RayStream&, const Query&, const HitStream&);
+template void trace_capsules(const CapsuleView&, const RayStream&, const Query&,
+                             std::uint8_t* const&);
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -90,7 +90,7 @@ void closest_hit(const GeometryView& geometry, const RayStream& rays, const Quer
   } else {
     closest_hit_in(geometry, rays, query, hits);
   }
-  if (geometry.capsules.slots != 0) trace_capsules(geometry.capsules, rays, query.form, hits);
+  if (geometry.capsules.slots != 0) trace_capsules(geometry.capsules, rays, query, hits);
 }
 
 void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& query,
@@ -100,7 +100,7 @@ void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& q
   } else {
     any_hit_in(geometry, rays, query, occluded);
   }
-  if (geometry.capsules.slots != 0) trace_capsules(geometry.capsules, rays, query.form, occluded);
+  if (geometry.capsules.slots != 0) trace_capsules(geometry.capsules, rays, query, occluded);
 }
 
 // The functions of the table. The functions that these call are always inlined and have no address.

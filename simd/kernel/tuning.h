@@ -82,7 +82,8 @@ inline constexpr std::size_t most_near_blocks = 640;
 /// Morton order. Again: bench_trace --benchmark_filter=bundle/.*/1000000
 inline constexpr std::size_t capsule_group = 64;
 
-/// Up to this many capsules are tested by a packet without their boxes. Again: as capsule_group
+/// Up to this many capsules near a group are tested by its packets without a search. Again: as
+/// capsule_group
 inline constexpr int most_capsules_alone = 4;
 
 // ---- Bundles: search/bundle_*.h ---------------------------------------------------------------

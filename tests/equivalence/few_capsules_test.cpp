@@ -113,9 +113,12 @@ TEST_P(FewCapsules, OddRaysEqualTheScalarPath) {
     using Number = std::remove_reference_t<decltype(number)>;
     if (random.chance(0.05)) number = static_cast<Number>(odd[random.below(7)]);
   };
-  for (int trial = 0; trial < 6; ++trial) {
+  for (int run = 0; run < 12; ++run) {
+    const int trial = run % 6;
+    const bool has_end = run >= 6;
     std::vector<Capsule> capsules = edges_and_others(random, 0.05F, 4);
-    std::vector<Ray> rays = tiles(random, Coherence::common_origin, 3);
+    std::vector<Ray> rays =
+        tiles(random, has_end ? Coherence::common_end : Coherence::common_origin, 3);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       Ray& ray = rays[i];
       if (trial % 2 == 0 && i / 64 % 4 == 0) ray.tmin = -2;
@@ -128,7 +131,7 @@ TEST_P(FewCapsules, OddRaysEqualTheScalarPath) {
       for (Capsule& capsule : capsules)
         spoil(capsule.a.x), spoil(capsule.b.z), spoil(capsule.radius);
     }
-    expect_reference_hits(capsules, rays, Coherence::none);
+    expect_reference_hits(capsules, rays, has_end ? Coherence::common_end : Coherence::none);
     if (HasFailure()) return;
   }
 }
@@ -158,9 +161,15 @@ TEST_P(FewCapsules, GrazingRaysEqualTheScalarPath) {
     Ray ray{middle, vec_cast<float>(dir)};
     ray.org = middle - vec_cast<double>(ray.dir) * 5.0;
     const Vec3d away = other - dir * dot(other, dir);
+    const bool has_end = trial % 2 == 1;
+    if (has_end) {
+      ray = {middle + vec_cast<double>(ray.dir) * 5.0, ray.dir * -10.0F};
+      ray.tmax = 1;
+    }
     graze(ray, capsule, away);
     ASSERT_NE(reference_hit(ray, {capsule}).id, no_primitive);
-    expect_reference_hits({capsule}, {ray}, Coherence::common_origin);
+    expect_reference_hits({capsule}, {ray},
+                          has_end ? Coherence::common_end : Coherence::common_origin);
     if (HasFailure()) return;
   }
 }

@@ -18,6 +18,16 @@ BOULE_INLINE void meet_step(const RayLanes& rays, const BlockCapsules<Access>& b
   if (best.wants(bounds.low, out)) best.consider(rays, capsule, bounds, block.slot(step), out);
 }
 
+/// Tests the capsule in a slot, against the rays outside `out`.
+template <class Best>
+BOULE_INLINE void meet_one(const RayLanes& rays, const CapsuleView& capsules, std::uint32_t slot,
+                           unsigned out, Best& best) {
+  const std::size_t k = slot % bvh_leaf_size, first_slot = slot - k;
+  const BlockCapsules<OneForAll> block{capsules.blocks[first_slot / bvh_leaf_size],
+                                       capsules.id + first_slot, first_slot};
+  meet_step(rays, block, k, out, best);
+}
+
 /// Tests the first `size` capsules of a block.
 template <class Access, class Best>
 BOULE_INLINE void meet_block(const RayLanes& rays, const CapsuleView& capsules,
@@ -74,10 +84,7 @@ BOULE_INLINE void traverse_capsules(const RayLanes& rays, const CapsuleView& cap
       continue;
     }
     if (visit.leaf_size == one_capsule) {
-      const std::size_t k = visit.child % bvh_leaf_size, first_slot = visit.child - k;
-      const BlockCapsules<OneForAll> block{capsules.blocks[first_slot / bvh_leaf_size],
-                                           capsules.id + first_slot, first_slot};
-      meet_step(rays, block, k, all_lanes & ~lanes, best);
+      meet_one(rays, capsules, visit.child, all_lanes & ~lanes, best);
     } else {
       const std::size_t slot = capsules.scanned + index_of(visit.child) * bvh_leaf_size;
       if constexpr (!Access::one_ray) {

@@ -11,7 +11,7 @@ namespace boule::BOULE_KERNEL_ISA {
 /// nearer hit, or with any, are done. Every solver decides as robust does. Answers: HitStream, or
 /// std::uint8_t*. (capsules.cpp)
 template <class Answers>
-void trace_capsules(const CapsuleView& capsules, const RayStream& rays, Form form,
+void trace_capsules(const CapsuleView& capsules, const RayStream& rays, const Query& query,
                     const Answers& answers);
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -56,9 +56,11 @@ BOULE_INLINE BoxAround before_rounding(const BoxAround& box) {
 }
 
 /// What holds the rays of a group that can hit anything: they start in a box, go along directions
-/// of a box and have no hits behind their origins, or `forward` is false.
+/// of a box and have no hits behind their origins, or `forward` is false. `away`: how far from
+/// there the rays themselves may start, as a sum of coordinates.
 struct RayRange {
   BoxAround org, dir;
+  double away;
   bool forward;
 };
 
@@ -78,7 +80,30 @@ BOULE_INLINE RayRange range_of(const PaddedStream& stream, std::size_t begin, st
   const BoxAround from = shared.has_origin()
                              ? BoxAround{{rays.org_x[0], rays.org_y[0], rays.org_z[0]}, {}}
                              : before_rounding(org.box());
-  return {from, dir.box(), 0.0F <= least_lane(tmin.low)};
+  return {from, dir.box(), 0, 0.0F <= least_lane(tmin.low)};
+}
+
+BOULE_INLINE double greatest_sum(const BoxAround& box) {
+  const auto size = [](double mid, double half) { return (mid < 0 ? -mid : mid) + half; };
+  return size(box.mid.x, box.half.x) + size(box.mid.y, box.half.y) + size(box.mid.z, box.half.z);
+}
+
+/// The same of the rays turned round: they start at their ends o + d, and have hits before these
+/// only. A sum is rounded once.
+BOULE_INLINE RayRange backward_range_of(const PaddedStream& stream, std::size_t begin,
+                                        std::size_t end) {
+  VectorRange ends, dir;
+  RangeLanes tmax;
+  for (std::size_t first = begin; first < end; first += width) {
+    const auto [rays, at] = stream.packet(first);
+    const Vec3<Real> d = load_directions(*rays, at);
+    ends.add(narrow(load_origins(*rays, at) + widen(d)));
+    dir.add(d);
+    tmax.add(load(rays->tmax + at));
+  }
+  BoxAround back = dir.box();
+  back.mid = -back.mid;
+  return {before_rounding(ends.box()), back, greatest_sum(back), greatest_lane(tmax.high) <= 1.0F};
 }
 
 }  // namespace boule::BOULE_KERNEL_ISA
