@@ -240,6 +240,15 @@ _Background = Union[ConstantBackground, GradientBackground, EnvironmentBackgroun
 _Light = Union[PointLight, DirectionalLight, SphereLight]
 _Map = Union[str, Sequence[str]]
 
+class _Colors(_Keys):
+    colors: ArrayLike | None
+    color_space: Literal["srgb", "linear"]
+    scalar: ArrayLike | None
+    map: _Map | None
+    range: Sequence[float] | None
+    color: _Color | None
+    material: _Material | str | None
+
 class _Many:
     color: _Color | None
     material: _Material | str | None
@@ -250,19 +259,7 @@ class _Many:
     def range(self) -> list[float] | None: ...
 
 class Spheres(_Many):
-    def __init__(
-        self,
-        centers: ArrayLike,
-        radii: ArrayLike,
-        *,
-        colors: ArrayLike | None = ...,
-        color_space: Literal["srgb", "linear"] = ...,
-        scalar: ArrayLike | None = ...,
-        map: _Map | None = ...,
-        range: Sequence[float] | None = ...,
-        color: _Color | None = ...,
-        material: _Material | str | None = ...,
-    ) -> None: ...
+    def __init__(self, centers: ArrayLike, radii: ArrayLike, **colors: _Colors) -> None: ...
     @property
     def centers(self) -> NDArray[Any]: ...
     @property
@@ -270,18 +267,7 @@ class Spheres(_Many):
 
 class Capsules(_Many):
     def __init__(
-        self,
-        a: ArrayLike,
-        b: ArrayLike,
-        radius: ArrayLike,
-        *,
-        colors: ArrayLike | None = ...,
-        color_space: Literal["srgb", "linear"] = ...,
-        scalar: ArrayLike | None = ...,
-        map: _Map | None = ...,
-        range: Sequence[float] | None = ...,
-        color: _Color | None = ...,
-        material: _Material | str | None = ...,
+        self, a: ArrayLike, b: ArrayLike, radius: ArrayLike, **colors: _Colors
     ) -> None: ...
     @property
     def a(self) -> NDArray[Any]: ...
@@ -296,34 +282,13 @@ class _Objects:
     capsules: list[Capsule | Capsules]
     instances: list[Instance]
     def add_spheres(
-        self,
-        centers: ArrayLike,
-        radii: ArrayLike,
-        *,
-        colors: ArrayLike | None = ...,
-        color_space: Literal["srgb", "linear"] = ...,
-        scalar: ArrayLike | None = ...,
-        map: _Map | None = ...,
-        range: Sequence[float] | None = ...,
-        color: _Color | None = ...,
-        material: _Material | str | None = ...,
+        self, centers: ArrayLike, radii: ArrayLike, **colors: _Colors
     ) -> Spheres: ...
     def add_sphere(self, **keys: Sphere) -> Sphere: ...
     def add_particles(self, file: _Path, **keys: Particles) -> Particles: ...
     def add_plane(self, **keys: Plane) -> Plane: ...
     def add_capsules(
-        self,
-        a: ArrayLike,
-        b: ArrayLike,
-        radius: ArrayLike,
-        *,
-        colors: ArrayLike | None = ...,
-        color_space: Literal["srgb", "linear"] = ...,
-        scalar: ArrayLike | None = ...,
-        map: _Map | None = ...,
-        range: Sequence[float] | None = ...,
-        color: _Color | None = ...,
-        material: _Material | str | None = ...,
+        self, a: ArrayLike, b: ArrayLike, radius: ArrayLike, **colors: _Colors
     ) -> Capsules: ...
     def add_capsule(self, **keys: Capsule) -> Capsule: ...
     def add_instance(self, group: Group | str, **keys: Instance) -> Instance: ...
