@@ -6,6 +6,7 @@
 
 #include "core/base/text.h"
 #include "core/math/color_names.h"
+#include "render/apps/cli/report/movie.h"
 #include "render/apps/job/look_values.h"
 #include "render/apps/job/option_values.h"
 #include "render/apps/job/overlay/overlay_facts.h"
@@ -91,8 +92,8 @@ Words known_words(const std::string& name) {
 Words image_endings() {
   Words endings = parts_of(known_image_extensions(), ", ");
   for (std::string& ending : endings) ending.insert(ending.begin(), '.');
-  for (const char* other : {".mp4", ".webm", ".gif"}) endings.emplace_back(other);  // movies
-  endings.emplace_back(film_ending);                                                // shards
+  for (const std::string_view movie : cli::movie_endings) endings.emplace_back(movie);
+  endings.emplace_back(film_ending);  // shards
   return endings;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/apps/cli/commands/commands.h"
+#include "core/base/text.h"
 #include "render/apps/cli/process/interrupt.h"
 #include "render/apps/cli/process/messages.h"
 #include "render/apps/cli/process/standard_error.h"
@@ -253,7 +254,8 @@ ExitCode run(const RenderCommand& given) {
   if (command.turn) command.frames = FrameRange{0, *command.turn - 1};
   if (auto done = check_copies(command); !done) return report(done.error(), wrong_usage);
   if (command.fps && !is_movie_name(command.output))
-    return report(wrong_option("is of movies: .mp4, .webm, .gif", "--fps"), wrong_usage);
+    return report(wrong_option("is of movies: " + joined(movie_endings, ", "), "--fps"),
+                  wrong_usage);
   const auto team = join_team(command);
   if (!team) return report(team.error(), failed);
   if (team.value()) return run_as_rank(*team.value(), command);

@@ -4,7 +4,9 @@
 #include <string>
 #include <system_error>
 
+#include "core/base/text.h"
 #include "render/apps/cli/options/part_options.h"
+#include "render/apps/cli/report/movie.h"
 #include "render/apps/cli/report/output_check.h"
 #include "render/apps/cli/report/picture_stream.h"
 #include "render/apps/cli/report/run_report.h"
@@ -93,7 +95,7 @@ Status check_command(const RenderCommand& command) {
   if (format == nullptr) {
     return wrong_option("no picture format has the extension of " + quote(command.output) +
                             ", expected one of " + known_image_extensions() +
-                            ", a page: pdf, svg, or a movie: .mp4, .webm, .gif",
+                            ", a page: pdf, svg, or a movie: " + joined(movie_endings, ", "),
                         "--output");
   }
   if (auto done = check_overlay(command, *format); !done) return done;

@@ -34,13 +34,13 @@ const std::vector<MovieFormat>& movie_formats() {
   constexpr const char* colors =
       "scale=trunc(iw/2)*2:trunc(ih/2)*2:out_color_matrix=bt709:out_range=tv,format=yuv420p";
   static const std::vector<MovieFormat> formats{
-      {".mp4",
+      {movie_endings[0],
        {"-vf", colors, "-c:v", "libx264", "-crf", "18", "-colorspace", "bt709", "-color_primaries",
         "bt709", "-color_trc", "bt709", "-movflags", "+faststart", "-f", "mp4"}},
-      {".webm",
+      {movie_endings[1],
        {"-vf", colors, "-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "24", "-colorspace", "bt709",
         "-color_primaries", "bt709", "-color_trc", "bt709", "-f", "webm"}},
-      {".gif", {"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse", "-f", "gif"}}};
+      {movie_endings[2], {"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse", "-f", "gif"}}};
   return formats;
 }
 

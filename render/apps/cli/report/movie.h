@@ -2,15 +2,20 @@
 
 #include <sys/types.h>
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/base/error.h"
 #include "render/image/output_file.h"
 
 namespace boule::cli {
 
-/// Whether the name is that of a movie: .mp4, .webm or .gif.
+/// What the names of movies end in.
+inline constexpr std::array<std::string_view, 3> movie_endings{".mp4", ".webm", ".gif"};
+
+/// Whether the name is that of a movie.
 bool is_movie_name(const std::string& name);
 
 /// A movie that the program ffmpeg makes of the pictures on standard output. It appears under its
