@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/apps/cli/commands/commands.h"
 #include "core/base/text.h"
+#include "render/apps/cli/commands/commands.h"
 #include "render/apps/cli/process/interrupt.h"
 #include "render/apps/cli/process/messages.h"
 #include "render/apps/cli/process/standard_error.h"
