@@ -17,6 +17,7 @@ class Boule < Formula
   depends_on "xsimd" => :build
   depends_on "bzip2"
   depends_on "fmt"
+  depends_on "hdf5"
   depends_on "jpeg-turbo"
   depends_on "libpng"
   depends_on "libzip"

@@ -40,6 +40,10 @@ class SceneLoader {
   /// The same where particles look otherwise from now on, unless that is an error.
   Result<LoadedScene> load_as(const LookOptions& look, std::optional<int> frame);
 
+  /// From now on LoadedScene::source may have the spheres of particles, for one who needs them in
+  /// their order only. This object outlives that source.
+  void let_stream() { options_.may_stream = !look_.floor; }
+
   /// Whether a scene was made for a particle file.
   [[nodiscard]] bool is_made() const { return is_made_; }
   /// What colours mean, one for each table of particles: those of a series include what is only in

@@ -152,7 +152,12 @@ void add_column_names(const std::string& name, std::vector<std::string>& names) 
   }
 }
 
-std::string particle_text(std::size_t particle, std::size_t count) {
+std::string particle_text(std::size_t particle, std::size_t count,
+                          const std::optional<ParticleFrame::Part>& part) {
+  if (part) {
+    particle += static_cast<std::size_t>(part->before);
+    count = static_cast<std::size_t>(part->all);
+  }
   return "particle " + std::to_string(particle + 1) + " of " + std::to_string(count);
 }
 

@@ -66,8 +66,10 @@ std::string_view norm_name(std::string_view text);
 /// Adds the columns that find_particle_numbers() would look at for this name.
 void add_column_names(const std::string& name, std::vector<std::string>& names);
 
-/// "particle 3 of 10", for messages; `particle` counts from 0, the text from 1.
-std::string particle_text(std::size_t particle, std::size_t count);
+/// "particle 3 of 10", for messages; `particle` counts from 0, the text from 1. `part`: of a frame
+/// of which this is a part.
+std::string particle_text(std::size_t particle, std::size_t count,
+                          const std::optional<ParticleFrame::Part>& part = {});
 
 /// What messages call a particle, by its place in a frame.
 using ParticleNamer = std::function<std::string(std::size_t particle)>;

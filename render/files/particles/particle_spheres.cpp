@@ -221,7 +221,7 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   if (!selected) return selected.error();
   if (auto done = check_room(frame.size(), style); !done) return done.error();
   const ParticleNamer name_of = [&](std::size_t shown) {
-    return particle_text(place_of(shown, selected.value()), count);
+    return particle_text(place_of(shown, selected.value()), count, frame.part);
   };
   make_kinds(frame, style, made.own_);
   auto radii = make_radii(frame, source.value(), style.scale, name_of, parallel_for);
@@ -351,7 +351,7 @@ Status ParticleSpheres::append_images_to(std::vector<Sphere>& spheres, std::size
   }
   if (wrong == no_particle) return {};
   spheres.resize(first);
-  return Diagnostic::about(key, "the position of " + particle_text(wrong, particles) +
+  return Diagnostic::about(key, "the position of " + particle_text(wrong, particles, frame_->part) +
                                     " is too far from the origin for a sphere");
 }
 

@@ -40,6 +40,7 @@ class Boule(CMakePackage):
     depends_on("zstd")
     depends_on("xxhash")
     depends_on("mpi", when="+mpi")
+    depends_on("hdf5")
     depends_on("pango", when="+images")
     with_python = "+python"
     extends("python@3.9:", when=with_python)

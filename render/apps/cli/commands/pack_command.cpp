@@ -35,9 +35,10 @@ std::string size_text(std::uint64_t bytes) {
 
 /// A scene without its spheres, and where these come from.
 struct Input {
-  Scene scene;
-  Vec3d origin;
-  std::unique_ptr<SphereSource> spheres;
+  std::unique_ptr<SceneLoader> loader{};  ///< what the source of particles runs its loops by
+  Scene scene{};
+  Vec3d origin{};
+  std::shared_ptr<SphereSource> spheres{};
 };
 
 /// Errors in the command that show without reading any file.
@@ -78,26 +79,30 @@ Result<Input> spheres_alone(const PackCommand& command, const ParallelFor& paral
   return Result<Input>(std::move(input));
 }
 
-/// A scene that is read as a whole.
+/// A scene that is read as a whole, but for particles that are all its spheres and can be read part
+/// by part.
 Result<Input> whole_scene(const PackCommand& command) {
   RenderJob reading{command};
   reading.scene = command.inputs.front();
-  SceneLoader loader(reading);
+  Input input;
+  input.loader = std::make_unique<SceneLoader>(reading);
+  input.loader->let_stream();
   ReadingLimit limit(command.load_limit);
   const ReadingLimit::Reading guard(limit, reading.scene);
-  auto loaded = loader.load(std::nullopt);
+  auto loaded = input.loader->load(std::nullopt);
   if (!loaded) return loaded.error();
   if (!command.quiet) {
     for (const std::string& warning : loaded.value().warnings) print_note(warning);
   }
   tell(command, loaded.value().notes);
-  Input input;
   input.scene = std::move(loaded.value().scene);
   input.origin = loaded.value().origin;
   if (input.scene.packed)
     return Diagnostic::in_file(reading.scene, "its spheres are packed already");
+  input.spheres = std::move(loaded.value().source);
+  if (input.spheres) return Result<Input>(std::move(input));
   expand_instances(input.scene);
-  input.spheres = std::make_unique<SpheresInMemory>(std::exchange(input.scene.spheres, {}));
+  input.spheres = std::make_shared<SpheresInMemory>(std::exchange(input.scene.spheres, {}));
   return Result<Input>(std::move(input));
 }
 

@@ -112,6 +112,8 @@ void look_at_storage(hid_t dataset, hid_t type, Object& object) {
   checked(H5Pget_chunk(list.id(), static_cast<int>(most_axes), extent.data()));
   object.chunk_bytes = H5Tget_size(type);
   for (std::uint32_t i = 0; i < object.axes; ++i) object.chunk_bytes *= extent[i];
+  constexpr std::uint64_t most = std::uint64_t{1} << 30;  // it is in memory as a whole
+  if (object.chunk_bytes > most) throw Failure{"its chunks have more than 1 GiB"};
 }
 
 Object object_of(hid_t dataset) {

@@ -80,12 +80,14 @@ Result<ParticleMaterials> map_numbers(const ColoredFrame& colored, const MappedC
     scale.goes_below = scale.goes_below || one.below;
     scale.goes_above = scale.goes_above || one.above;
   }
-  if (const std::size_t count = scale.missing; count > 0) {
-    made.notes.push_back(std::to_string(count) +
-                         (count == 1 ? " particle has" : " particles have") + " no number in " +
-                         quote(mapped.by) + ", the colour of that is " + hex_text(nan_color));
-  }
+  if (scale.missing > 0) made.notes.push_back(missing_note(scale));
   return made;
+}
+
+std::string missing_note(const ParticleColors::Scale& scale) {
+  return std::to_string(scale.missing) +
+         (scale.missing == 1 ? " particle has" : " particles have") + " no number in " +
+         quote(scale.by) + ", the colour of that is " + hex_text(scale.nan_color);
 }
 
 }  // namespace boule

@@ -51,6 +51,9 @@ Result<ParticleMaterials> make_materials(const ParticleFrame& frame, const Parti
 Result<ParticleMaterials> map_numbers(const ColoredFrame& colored, const MappedColors& mapped,
                                       const std::string& key);
 
+/// The note of particles that have no number: "3 particles have no number in 'v', ...".
+std::string missing_note(const ParticleColors::Scale& scale);
+
 /// The colours whose components are three columns of numbers: all from 0 to 1, or else whole
 /// numbers from 0 to 255, which a note tells; of the sRGB curve.
 Result<ParticleMaterials> take_components(const ColoredFrame& colored,

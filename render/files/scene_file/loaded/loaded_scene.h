@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -17,6 +18,7 @@
 namespace boule {
 
 class ParticleFileCache;
+class SphereSource;
 struct SceneData;
 
 /// The treatment of an NFF polygon: its infinite plane, skipped, or an error.
@@ -41,6 +43,9 @@ struct SceneFileOptions {
   /// (ParticleSpheres::shares_images()).
   std::optional<std::uint64_t> fewest_shared{};
   const SceneData* data = nullptr;  ///< data in memory that replace named files; null: none
+  /// Particles that are read part by part may stay outside the scene (LoadedScene::source), where
+  /// they are all its spheres and nothing else needs them.
+  bool may_stream = false;
   /// Runs the loops over particles.
   ParallelFor parallel_for = serial_for;
 };
@@ -53,6 +58,9 @@ struct LoadedScene {
   std::vector<std::string> data_files{};
   std::vector<std::string> notes{};        ///< automatic choices, a sentence each
   std::vector<ParticleFacts> particles{};  ///< of each file of particles
+  /// Where the spheres come from that are not in the scene; null: all are in it. It uses the
+  /// ParallelFor of SceneFileOptions, which outlives it.
+  std::shared_ptr<SphereSource> source{};
   /// The scene's own point 0: it was subtracted, in double, from all points of the file before they
   /// were rounded. If you trace rays against the scene, subtract it from theirs, and add it to
   /// points of hits. If the file leaves it open, it is 0 where rounding goes unseen that way, else

@@ -131,11 +131,11 @@ void TomlObjects::read_spheres(std::vector<ObjectTables::Spheres>& tables, Owner
   }
 }
 
-void TomlObjects::load_particles(ObjectTables& tables) {
+void TomlObjects::load_particles(ObjectTables& tables, bool may_stream) {
   for (auto& [table, source, particles] : tables.spheres) {
     if (source != ObjectTables::Source::particles) continue;
     const std::uint32_t material = colorable_material_of(table, "material");
-    particles = read_particles(table, material, options_);
+    particles = read_particles(table, material, options_, may_stream);
     if (!particles) return;
     notes_.insert(notes_.end(), particles->notes.begin(), particles->notes.end());
     facts_.push_back(particles->facts);
@@ -147,18 +147,23 @@ template <class Owner>
 void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& particles,
                                 Owner& owner) {
   if (!particles || !error_.status()) return;
+  if (particles->source) {
+    source_ = particles->source;
+    source_->set_origin(table.origin());
+    return;
+  }
   std::vector<Sphere>& spheres = owner.spheres;
+  ParticleSpheres& made = *particles->spheres;
   const auto fewest = options_.fewest_shared.value_or(ParticleSpheres::fewest_shared);
-  if (particles->spheres.shares_images(fewest) && &spheres == &scene_.spheres) {
-    add_images(table, std::move(particles->spheres));
+  if (made.shares_images(fewest) && &spheres == &scene_.spheres) {
+    add_images(table, std::move(made));
     return particles.reset();
   }
-  make_room(spheres, particles->spheres.size());
+  make_room(spheres, made.size());
   const std::size_t before = spheres.size();
-  if (auto done = particles->spheres.append_capsules_to(owner.capsules, table.origin()); !done)
+  if (auto done = made.append_capsules_to(owner.capsules, table.origin()); !done)
     table.report("file", done.error().message);
-  if (auto done =
-          std::move(particles->spheres).append_to(spheres, table.origin(), options_.parallel_for);
+  if (auto done = std::move(made).append_to(spheres, table.origin(), options_.parallel_for);
       !done) {
     spheres.resize(before);
     table.report("file", done.error().message);

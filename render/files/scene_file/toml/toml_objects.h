@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -67,7 +68,8 @@ class TomlObjects final : private TomlNames {
   /// Gives every group its number: instances may name groups that come later.
   void start_groups(const std::vector<TomlTable>& tables);
   /// Reads the files of the tables [[particles]]. They become spheres with the other objects.
-  void load_particles(ObjectTables& tables);
+  /// `may_stream`: where they are all spheres of the scene, their file may stay their source.
+  void load_particles(ObjectTables& tables, bool may_stream = false);
   /// The group's table has its origin by now, one of those of all groups.
   void read_group(std::size_t group, ObjectTables& tables, const std::vector<Vec3d>& origins);
   void read_scene(ObjectTables& tables, const std::vector<Vec3d>& group_origins);
@@ -75,6 +77,9 @@ class TomlObjects final : private TomlNames {
   /// Reports what find_instance_problem() finds at the instance's table, and an error if there is
   /// no memory for the primitives that the instances show.
   void check_instances();
+
+  /// LoadedScene::source.
+  [[nodiscard]] const std::shared_ptr<ParticleSource>& source() const { return source_; }
 
   /// What the files of particles held, and what was decided for the user.
   [[nodiscard]] const std::vector<ParticleFacts>& facts() const { return facts_; }
@@ -127,6 +132,7 @@ class TomlObjects final : private TomlNames {
   FirstError& error_;
   const SceneFileOptions& options_;
   std::vector<ParticleFacts> facts_;
+  std::shared_ptr<ParticleSource> source_;
   std::vector<std::string> notes_;
   std::map<std::string, std::uint32_t> material_ids_;
   std::map<std::string, std::uint32_t> group_ids_;

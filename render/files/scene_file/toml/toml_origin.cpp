@@ -32,7 +32,8 @@ SphereExtent of_capsule(TomlTable& table) {
   return extent;
 }
 
-SphereExtent of_particles(const ParticleSpheres& particles) {
+template <class Spheres>
+SphereExtent of_particles(const Spheres& particles) {
   if (particles.size() == 0) return {};
   const auto& [low, high] = particles.center_bounds();
   return {low, high, particles.smallest_radius(), SphereExtent::infinity};
@@ -76,7 +77,9 @@ SphereExtent TomlExtents::of_spheres(ObjectTables::Spheres& spheres) {
     case ObjectTables::Source::spheres:
       return of_file<Sphere>(spheres.table);
     default:
-      return spheres.particles ? of_particles(spheres.particles->spheres) : SphereExtent{};
+      if (!spheres.particles) return {};
+      return spheres.particles->source ? of_particles(spheres.particles->source->spheres())
+                                       : of_particles(*spheres.particles->spheres);
   }
 }
 

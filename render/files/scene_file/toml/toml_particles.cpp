@@ -52,13 +52,18 @@ ParticleKeys read_particle_keys(TomlTable& table, std::uint32_t material) {
 /// Reads the file that the keys name.
 class ParticleTable {
  public:
-  ParticleTable(TomlTable& table, ParticleKeys keys, const SceneFileOptions& options)
-      : table_(table), keys_(std::move(keys)), options_(options) {}
+  ParticleTable(TomlTable& table, ParticleKeys keys, const SceneFileOptions& options,
+                bool may_stream)
+      : table_(table), keys_(std::move(keys)), options_(options), may_stream_(may_stream) {}
 
   std::optional<TomlParticles> read();
 
  private:
-  std::optional<ParticleFrame> read_frame();
+  std::optional<ParticleFrame> read_frame(ParticleFile& file);
+  std::shared_ptr<ParticleSource> open_source(const std::shared_ptr<ParticleFile>& file);
+  Result<std::shared_ptr<ParticleSource>> find_source(const std::shared_ptr<ParticleFile>& file);
+  template <class Spheres>
+  TomlParticles tell(const Spheres& spheres, std::size_t of_file);
   Status find_wrong_radius() const;
   std::shared_ptr<ParticleFile> open(const ParticleFileOptions& file);
   std::optional<std::size_t> choose_frame(const ParticleFile& file);
@@ -68,6 +73,8 @@ class ParticleTable {
   TomlTable& table_;
   ParticleKeys keys_;
   const SceneFileOptions& options_;
+  bool may_stream_;
+  std::string held_;  ///< why a frame that is read part by part is held as a whole
   ParticleFacts facts_;
 };
 
@@ -76,7 +83,28 @@ std::optional<TomlParticles> ParticleTable::read() {
   keys_.style.lacks_kinds = options_.frame.has_value();
   keys_.file.wanted = columns_of(keys_.style);
   keys_.file.most_bonded = most_bonded_of(keys_.style);
-  auto frame = read_frame();
+  const std::shared_ptr<ParticleFile> file = open(keys_.file);
+  if (!file) return std::nullopt;
+  const auto number = choose_frame(*file);
+  if (!number) return std::nullopt;
+  facts_ = {.table = table_.path(),
+            .file = keys_.path,
+            .format = std::string(file->format()),
+            .frames = file->frames(),
+            .frame = *number};
+  if (may_stream_) {
+    auto source = open_source(file);
+    if (!table_.ok()) return std::nullopt;
+    if (source) {
+      const PartedSpheres& spheres = source->spheres();
+      facts_.time = spheres.time();
+      facts_.particles = static_cast<std::size_t>(spheres.particles());
+      TomlParticles particles = tell(spheres, 0);
+      particles.source = std::move(source);
+      return particles;
+    }
+  }
+  auto frame = read_frame(*file);
   if (!frame) return std::nullopt;
   const std::size_t of_file = frame->notes.size();
   auto made = ParticleSpheres::make(std::move(*frame), keys_.style, options_.parallel_for);
@@ -85,21 +113,65 @@ std::optional<TomlParticles> ParticleTable::read() {
     place ? report_key(made.error()) : report_file(place.error());
     return std::nullopt;
   }
-  TomlParticles particles{std::move(made).value(), std::move(facts_), {}};
-  const ParticleSpheres& spheres = particles.spheres;
-  particles.facts.spheres = spheres.size();
-  particles.facts.bonds = spheres.bonds();
+  ParticleSpheres& spheres = made.value();
+  facts_.bonds = spheres.bonds();
+  facts_.own = spheres.own_choices();
+  TomlParticles particles = tell(spheres, of_file);
+  particles.spheres = std::move(spheres);
+  return particles;
+}
+
+/// What is told of spheres; so many notes are those of the file.
+template <class Spheres>
+TomlParticles ParticleTable::tell(const Spheres& spheres, std::size_t of_file) {
+  TomlParticles particles{{}, {}, std::move(facts_), {}};
+  particles.facts.spheres = static_cast<std::size_t>(spheres.size());
   particles.facts.radius_source = spheres.radius_source();
   particles.facts.colors = spheres.colors();
   particles.facts.cell = spheres.cell();
   particles.facts.axes_matter = spheres.axes_matter();
-  particles.facts.own = spheres.own_choices();
   // What is decided is told once for all files of a series.
   for (std::size_t i = 0; i < spheres.notes().size(); ++i) {
     const std::string& name = i < of_file ? keys_.name : keys_.written;
     particles.notes.push_back(printable(name) + ": " + spheres.notes()[i]);
   }
+  if (!held_.empty()) {
+    particles.notes.push_back(printable(keys_.name) +
+                              ": the frame is held in memory as a whole: " + held_);
+  }
   return particles;
+}
+
+/// The frame part by part, with what is to be known of all of it; null if it is read as a whole.
+Result<std::shared_ptr<ParticleSource>> ParticleTable::find_source(
+    const std::shared_ptr<ParticleFile>& file) {
+  const std::shared_ptr<ParticleSource> none;
+  auto parts = file->parts(facts_.frame);
+  if (!parts) return parts.error();
+  if (!parts.value() || parts.value()->size() == 0) return none;
+  const auto some = parts.value()->read(0, 1);
+  if (!some) return some.error();
+  const std::string needs = what_needs_all(some.value(), keys_.style);
+  if (!needs.empty()) {
+    constexpr std::uint64_t many = std::uint64_t{1} << 22;
+    if (parts.value()->size() >= many) held_ = needs;
+    return none;
+  }
+  auto spheres = PartedSpheres::make(std::move(parts).value(), keys_.style, options_.parallel_for);
+  if (!spheres) return spheres.error();
+  return std::make_shared<ParticleSource>(file, std::move(spheres).value(), options_.parallel_for);
+}
+
+std::shared_ptr<ParticleSource> ParticleTable::open_source(
+    const std::shared_ptr<ParticleFile>& file) {
+  auto source = find_source(file);
+  if (source) return source.value();
+  if (source.error().key == "file" || source.error().key.empty()) {
+    report_file(Diagnostic::of(source.error().message));
+  } else {
+    report_key(source.error());
+  }
+  return nullptr;
 }
 
 std::shared_ptr<ParticleFile> ParticleTable::open(const ParticleFileOptions& file) {
@@ -115,23 +187,14 @@ std::shared_ptr<ParticleFile> ParticleTable::open(const ParticleFileOptions& fil
   return nullptr;
 }
 
-std::optional<ParticleFrame> ParticleTable::read_frame() {
-  const std::shared_ptr<ParticleFile> file = open(keys_.file);
-  if (!file) return std::nullopt;
-  const auto number = choose_frame(*file);
-  if (!number) return std::nullopt;
-  auto frame = file->read(static_cast<long>(*number), options_.parallel_for);
+std::optional<ParticleFrame> ParticleTable::read_frame(ParticleFile& file) {
+  auto frame = file.read(static_cast<long>(facts_.frame), options_.parallel_for);
   if (!frame) {
     report_file(frame.error());
     return std::nullopt;
   }
-  facts_ = {.table = table_.path(),
-            .file = keys_.path,
-            .format = std::string(file->format()),
-            .frames = file->frames(),
-            .frame = *number,
-            .time = frame.value().time,
-            .particles = frame.value().size()};
+  facts_.time = frame.value().time;
+  facts_.particles = frame.value().size();
   return std::move(frame).value();
 }
 
@@ -195,12 +258,12 @@ void ParticleTable::report_key(const Diagnostic& error) {
 }  // namespace
 
 std::optional<TomlParticles> read_particles(TomlTable& table, std::uint32_t material,
-                                            const SceneFileOptions& options) {
+                                            const SceneFileOptions& options, bool may_stream) {
   ParticleKeys keys = read_particle_keys(table, material);
   if (!table.ok()) return std::nullopt;
   keys.path = table.file_path(keys.name);
   if (!keys.file.topology.empty()) keys.file.topology = table.file_path(keys.file.topology);
-  return ParticleTable(table, std::move(keys), options).read();
+  return ParticleTable(table, std::move(keys), options, may_stream).read();
 }
 
 }  // namespace boule

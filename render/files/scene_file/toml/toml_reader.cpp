@@ -40,6 +40,8 @@ class TomlReader {
   void check_packed(const ObjectTables& objects);
   void read_camera_table(TomlTable& table);
   void read_background_table(TomlTable& table);
+  bool may_stream(const ObjectTables& objects, const std::vector<TomlTable>& groups,
+                  std::optional<TomlTable>& camera) const;
   void choose_pose();
   void validate_whole();
   void describe(const std::vector<std::string>& notes);
@@ -75,7 +77,7 @@ Result<LoadedScene> TomlReader::read() {
   TomlObjects reader(scene_, error_, options_);
   reader.read_materials(std::move(materials));
   reader.start_groups(groups);
-  reader.load_particles(objects);
+  reader.load_particles(objects, may_stream(objects, groups, camera));
   for (std::size_t i = 0; i < groups.size(); ++i) {
     groups[i].finish();
     reader.load_particles(inside[i]);
@@ -93,6 +95,7 @@ Result<LoadedScene> TomlReader::read() {
   }
   reader.check_instances();
   loaded_.particles = reader.facts();
+  loaded_.source = reader.source();
   choose_pose();
   validate_whole();
   if (!error_.status()) return error_.status().error();
@@ -131,6 +134,14 @@ void TomlReader::choose_origins(const std::vector<TomlTable>& groups,
   for (std::size_t i = 0; i < groups.size(); ++i) {
     loaded_.group_origins[i] = choose_origin(extents.of(inside[i]));
   }
+}
+
+/// Whether a file of particles has all spheres, and the camera's pose is not found from them.
+bool TomlReader::may_stream(const ObjectTables& objects, const std::vector<TomlTable>& groups,
+                            std::optional<TomlTable>& camera) const {
+  if (!options_.may_stream || packed_ || objects.spheres.size() != 1 || !groups.empty())
+    return false;
+  return !camera || !camera->has("pose");
 }
 
 /// Packed spheres are the only ones of a scene, and their points are counted from its origin.

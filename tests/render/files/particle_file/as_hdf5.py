@@ -212,6 +212,9 @@ def refusals(folder):
     def vast(file):
         file.create_dataset("particles/all/position/value", (1, 10**12, 3), "f8", chunks=(1, 10**5, 3))
 
+    def large_chunks(file):
+        file.create_dataset("particles/all/position", (2**27, 3), "f4", chunks=(2**27, 3), compression="gzip")
+
     def flat(file):
         file["particles/all/position"] = np.ones((5, 2))
 
@@ -230,7 +233,7 @@ def refusals(folder):
         (linked, "links there are not followed"), (through, "links there are not followed"),
         (softly, "its link is not followed"), (raw, "its bytes are in other files"),
         (virtual, "it is virtual"), (packed, "packed by filter 32000"), (vast, "1000000000000 particles need"),
-        (flat, "positions of shape (5, 2), expected three numbers each"), (texts, "expected three numbers each"),
+        (large_chunks, "its chunks have more than 1 GiB"), (flat, "positions of shape (5, 2), expected three numbers each"), (texts, "expected three numbers each"),
         (infinite, "particle 2 is at no finite position"), (other, "it lacks the groups of H5MD"),
     ]:  # fmt: skip
         refused(folder, make, told)
