@@ -74,7 +74,7 @@ std::vector<Ray> tiles(CaseRandom& random, Coherence coherence, double distance)
         rays.push_back({at - apex, vec_cast<float>(apex)});
       } else {
         rays.push_back({apex + vec_cast<double>(along), -along});
-        rays.back().tmax = 1;
+        rays.back().tmax = distance < 1 ? 3 : 1;  // from within a cell also beyond the end
       }
     }
   }
@@ -87,7 +87,8 @@ TEST_P(FewCapsules, CoherentRaysEqualTheScalarPath) {
   for (const Coherence coherence :
        {Coherence::common_origin, Coherence::common_direction, Coherence::common_end}) {
     for (const double distance : {0.3, 3.0, 50.0, 1e6}) {
-      for (const int others : {0, 4, 5, 70}) {
+      for (const int others : {0, 4, 5, 70, 400}) {
+        if (others == 400 && distance != 3) continue;  // a tree of two levels
         SCOPED_TRACE(distance);
         const std::vector<Capsule> capsules = edges_and_others(random, 0.02F, others);
         const std::vector<Ray> some = tiles(random, coherence, distance);
@@ -161,15 +162,31 @@ TEST_P(FewCapsules, GrazingRaysEqualTheScalarPath) {
     Ray ray{middle, vec_cast<float>(dir)};
     ray.org = middle - vec_cast<double>(ray.dir) * 5.0;
     const Vec3d away = other - dir * dot(other, dir);
-    const bool has_end = trial % 2 == 1;
-    if (has_end) {
-      ray = {middle + vec_cast<double>(ray.dir) * 5.0, ray.dir * -10.0F};
-      ray.tmax = 1;
-    }
     graze(ray, capsule, away);
     ASSERT_NE(reference_hit(ray, {capsule}).id, no_primitive);
-    expect_reference_hits({capsule}, {ray},
-                          has_end ? Coherence::common_end : Coherence::common_origin);
+    expect_reference_hits({capsule}, {ray}, Coherence::common_origin);
+    if (HasFailure()) return;
+  }
+}
+
+TEST_P(FewCapsules, GrazingRaysToAnEndToo) {
+  CaseRandom random(34);
+  for (int trial = 0; trial < 1000; ++trial) {
+    const double far = random.decade(1, 7);
+    const Vec3d dir = random.direction();
+    Ray ray{{}, vec_cast<float>(dir * far)};
+    ray.org = -vec_cast<double>(ray.dir);  // it ends at the origin
+    ray.tmax = 1;
+    const Vec3d middle = dir * -random.decade(-2, 1) + random.direction() * random.decade(-4, -1);
+    const Vec3d half = random.direction() * random.decade(-3, 0);
+    Capsule capsule{vec_cast<float>(middle - half), vec_cast<float>(middle + half), 0, {}};
+    float hit = 20, miss = 0;
+    for (int i = 0; i < 60; ++i) {
+      capsule.radius = (hit + miss) / 2;
+      (reference_hit(ray, {capsule}).id == no_primitive ? miss : hit) = capsule.radius;
+    }
+    capsule.radius = hit;
+    expect_reference_hits({capsule}, {ray}, Coherence::common_end);
     if (HasFailure()) return;
   }
 }
