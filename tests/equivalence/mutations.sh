@@ -106,6 +106,10 @@ breaks "rays tested one by one have no slack along their way" root_bounds.h \
   's/(four_spreads = )([^;]+);/\1BROKEN ? 0.0F : \2;/; s/(outward = )([^;]+);/\1BROKEN ? 1.0F : \2;/'
 breaks "spheres beyond the range of the filters are tested one by one" ray_by_ray.h \
   's/may_ = extent < filter::limit && /may_ = extent < (BROKEN ? 3e38F : filter::limit) \&\& /'
+breaks "rays turned round go on behind their end" ray_range.h \
+  's/greatest_lane\(tmax\.high\) <= 1\.0F/BROKEN || &/'
+breaks "children of the root of capsules are all leaves" capsules_near.h \
+  's/(near\.listed = )(root\.leaf_size\[child\] != 0;)/\1BROKEN || \2/'
 breaks "of a list of a set only the first W rays enter children" ray_sets.h \
   's/first < count; first \+= width/first < (BROKEN ? 1 : count); first += width/'
 breaks "lists of a set overlap" ray_sets.h \
