@@ -51,6 +51,7 @@ void check_whole(ProblemFinder& finder, const EnvironmentBackground& background)
 std::optional<Problem> find_problem(const Sphere& sphere) { return first_problem(sphere); }
 std::optional<Problem> find_problem(const Plane& plane) { return first_problem(plane); }
 std::optional<Problem> find_problem(const Capsule& capsule) { return first_problem(capsule); }
+std::optional<Problem> find_problem(const Clip& clip) { return first_problem(clip); }
 std::optional<Problem> find_problem(const Instance& instance) { return first_problem(instance); }
 std::optional<Problem> find_problem(const DistortionMap& map) { return first_problem(map); }
 std::optional<Problem> find_problem(const ImageSettings& image) { return first_problem(image); }

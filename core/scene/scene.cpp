@@ -59,8 +59,15 @@ class SectionCheck {
     return {};
   }
   static Status check(const std::string& key, const TypeRule&, const std::vector<Light>& lights) {
-    for (std::size_t i = 0; i < lights.size(); ++i) {
-      if (auto done = located(numbered(key, i), find_problem(lights[i])); !done) return done;
+    return check_list(key, lights);
+  }
+  static Status check(const std::string& key, const TypeRule&, const std::vector<Clip>& clips) {
+    return check_list(key, clips);
+  }
+  template <class T>
+  static Status check_list(const std::string& key, const std::vector<T>& list) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (auto done = located(numbered(key, i), find_problem(list[i])); !done) return done;
     }
     return {};
   }
@@ -157,7 +164,7 @@ Status validate_all_but_primitives(const Scene& scene) {
   const SectionCheck sections(scene);
   if (!sections.status()) return sections.status();
   const std::uint64_t packed = scene.packed ? scene.packed->count : 0;
-  std::uint64_t own = 0;
+  std::uint64_t own = scene.clips.size();  // their caps have ids, too
   each_kind([&](auto kind) { own += kind.of(scene).size(); });
   const std::uint64_t most =
       packed > 0 && scene.packed->trees.size() > 1 ? max_shown_primitives : max_primitives;

@@ -11,6 +11,7 @@
 #include "core/scene/background.h"
 #include "core/scene/camera.h"
 #include "core/scene/camera_fit.h"
+#include "core/scene/clip.h"
 #include "core/scene/distortion.h"
 #include "core/scene/field.h"
 #include "core/scene/group.h"
@@ -123,6 +124,7 @@ struct Scene {
   std::vector<Sphere> spheres{};
   std::vector<Plane> planes{};
   std::vector<Capsule> capsules{};
+  std::vector<Clip> clips{};
   std::vector<Group> groups{};  ///< shown by instances only
   std::vector<Instance> instances{};
   std::shared_ptr<const PackedSpheres> packed{};  ///< null: none
@@ -137,8 +139,9 @@ inline constexpr auto fields<Scene> = field_list(
     field("background.backdrop", &Scene::backdrop, rule::not_negative),
     field("material", &Scene::materials), field("light", &Scene::lights),
     field("sphere", &Scene::spheres), field("plane", &Scene::planes),
-    field("capsule", &Scene::capsules), field("group", &Scene::groups),
-    field("instance", &Scene::instances), field("packed", &Scene::packed));
+    field("capsule", &Scene::capsules), field("clip", &Scene::clips),
+    field("group", &Scene::groups), field("instance", &Scene::instances),
+    field("packed", &Scene::packed));
 
 /// The first Problem of a scene, or std::nullopt. The Diagnostic's key is a dotted path as in scene
 /// files ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"). Renderer, Tracer and

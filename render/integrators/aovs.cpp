@@ -19,9 +19,10 @@ Color at_most_one(const Color& c) {
   return {std::min(c.r, 1.0f), std::min(c.g, 1.0f), std::min(c.b, 1.0f)};
 }
 
-Aovs aovs_of(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
+/// `met`: the hit as the surface that was met.
+Aovs aovs_of(const PreparedScene& scene, const Ray& ray, const Hit& hit, const Hit& met) {
   if (hit.id == no_primitive) return {};
-  const Surface surface = find_surface(scene, ray, hit);
+  const Surface surface = find_surface(scene, ray, met);
   const FlatMaterial material = scene.material_of(hit);
   const Scatter weights = scatter(material, surface);
   const Vec3d& p = surface.point;
@@ -29,7 +30,7 @@ Aovs aovs_of(const PreparedScene& scene, const Ray& ray, const Hit& hit) {
   return {.depth = finite_float(hit.t * length(vec_cast<double>(ray.dir))),
           .normal = vec_cast<float>(surface.normal),
           .position = {finite_float(p.x), finite_float(p.y), finite_float(p.z)},
-          .id = static_cast<std::uint32_t>(hit.id),
+          .id = scene.primitive_id(hit),
           .albedo = at_most_one(material.diffuse + weights.reflection + weights.refraction),
           .along = finite_float(along)};
 }
@@ -40,8 +41,10 @@ void AovTracer::trace(RayBuffer& rays, Coherence coherence, Aovs* aovs) {
   const std::size_t count = rays.size();
   hits_.resize(count);
   const Query query{solver_, Form::automatic, coherence};
-  kernels_.closest_hit(geometry_, rays.view(), query, hits_.view());
-  for (std::size_t k = 0; k < count; ++k) aovs[k] = aovs_of(scene_, rays.get(k), hits_.get(k));
+  search_.closest_hit(rays.view(), query, hits_.view());
+  const HitStream met = search_.surfaces(hits_.view(), caps_);
+  for (std::size_t k = 0; k < count; ++k)
+    aovs[k] = aovs_of(scene_, rays.get(k), hits_.get(k), {met.t[k], met.id[k], met.slot[k]});
   primary_ += count;
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "render/integrators/integrator.h"
+#include "render/integrators/scene_search.h"
 #include "render/prepare/prepared_scene.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/stream/stream_buffer.h"
@@ -35,7 +36,7 @@ class AovTracer {
  public:
   /// `scene` and `kernels` must outlive it.
   AovTracer(const PreparedScene& scene, const KernelTable& kernels, Solver solver)
-      : scene_(scene), kernels_(kernels), solver_(solver), geometry_(scene.geometry.view()) {}
+      : scene_(scene), solver_(solver), search_(scene, kernels) {}
 
   /// Sets aovs[k] to the hit of rays[k]. Takes any rays. Precondition: `aovs` has room for one per
   /// ray.
@@ -46,10 +47,9 @@ class AovTracer {
 
  private:
   const PreparedScene& scene_;
-  const KernelTable& kernels_;
   Solver solver_;
-  GeometryView geometry_;
-  HitBuffer hits_;
+  SceneSearch search_;
+  HitBuffer hits_, caps_;
   std::uint64_t primary_ = 0;
 };
 

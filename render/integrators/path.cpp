@@ -112,6 +112,7 @@ double Path::emitter_density(const Vec3d& org, const Hit& hit, const Color& radi
   if (!scene_.is_sphere(hit)) return 0;
   const Sphere sphere = scene_.geometry.sphere(hit.slot);
   const LightCone cone(org, vec_cast<double>(sphere.center), double{sphere.radius});
+  if (scene_.is_cut(sphere)) return 0;
   return (1 - environment_share_) * scene_.area_lights.share_of(sphere, radiance) * cone.density();
 }
 
@@ -124,8 +125,8 @@ void Path::continue_paths(const Block& block) {
   LobePoints matte = matte_.view(), glossy = glossy_.view(), clear = clear_.view();
   kernels_.find_points(
       geometry_,
-      {part(stream.rays->view(), block.first, size), part(hits_.view(), block.first, size),
-       kinds_.data(), part(stream.throughput, block.first), stream.sample + block.first},
+      {part(stream.rays->view(), block.first, size), part(met_, block.first, size), kinds_.data(),
+       part(stream.throughput, block.first), stream.sample + block.first},
       matte, glossy, clear);
   going_on_ = wavefront_.begin_spawning(size);
   const std::size_t first_shadow = shadows_.size;

@@ -26,7 +26,8 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
       wavefront_(kernels, settings.stream_size, most_spawned * StreamSurfaces::block_size, rays,
                  rays == RaysPerDepth::many ? weight_of_depth(settings) : 0),
       surfaces_(scene, kernels),
-      geometry_(scene.geometry.view()) {}
+      geometry_(scene.geometry.view()),
+      search_(scene, kernels) {}
 
 void StreamIntegrator::use_light(const Light& light) {
   lights_.push_back({&light, shadow_target(light), light_intensity(light)});
@@ -68,7 +69,8 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
   const bool first_hits = depth_ == 0;
   const Query query{settings_.solver, Form::automatic,
                     first_hits ? camera.coherence : Coherence::none, &experience().nearest};
-  kernels_.closest_hit(geometry_, stream.rays->view(), query, hits_.view());
+  search_.closest_hit(stream.rays->view(), query, hits_.view());
+  met_ = search_.surfaces(hits_.view(), caps_);
   if (settings_.shadow_epsilon) find_float_points(stream);
   if (settings_.record != nullptr)
     settings_.record->begin(
@@ -124,7 +126,7 @@ Color StreamIntegrator::see_image(const PathStream& stream, std::size_t ray) con
 }
 
 void StreamIntegrator::find_surfaces(const Block& block) {
-  surfaces_.find(block.stream.rays->view(), hits_.view(), block.first, block.end - block.first);
+  surfaces_.find(block.stream.rays->view(), met_, block.first, block.end - block.first);
 }
 
 /// Adds the direct light of one light, which takes one stream of shadow rays.
@@ -142,7 +144,7 @@ void StreamIntegrator::record_shadow(const TargetedLight& light, const RayStream
                                      const std::uint8_t* blocked) {
   const Query query{settings_.solver, Form::automatic, Coherence::none};
   HitBuffer met(1);
-  if (blocked[0] != 0) kernels_.closest_hit(geometry_, rays, query, met.view());
+  if (blocked[0] != 0) search_.closest_hit(rays, query, met.view());
   Color arriving;
   illumination_.add_unblocked(kernels_, light.intensity, surfaces_, blocked,
                               {&arriving.r, &arriving.g, &arriving.b});
@@ -158,7 +160,7 @@ const std::uint8_t* StreamIntegrator::find_blocked(const RayStream& shadow_rays,
   // By an epsilon each of them has an origin and an end of its own.
   const Query query{settings_.solver, Form::automatic,
                     settings_.shadow_epsilon ? Coherence::none : coherence, &experience().shadow};
-  kernels_.any_hit(geometry_, shadow_rays, query, blocked_.data());
+  search_.any_hit(shadow_rays, query, blocked_.data());
   return blocked_.data();
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/integrators/integrator.h"
+#include "render/integrators/scene_search.h"
 #include "render/integrators/wavefront.h"
 #include "render/prepare/prepared_scene.h"
 #include "render/shading/illumination.h"
@@ -85,8 +86,11 @@ class StreamIntegrator : public Integrator {
   Illumination illumination_;
   StreamSurfaces surfaces_;
   GeometryView geometry_;
+  SceneSearch search_;
   // Working memory of one stream.
   HitBuffer hits_;
+  HitBuffer caps_;        ///< of scenes that are cut
+  HitStream met_{};       ///< the hits as the surfaces that were met: SceneSearch::surfaces()
   ColorBuffer radiance_;  ///< by ray
 
  private:

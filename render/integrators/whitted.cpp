@@ -64,7 +64,7 @@ void Whitted::scatter_rays(const Block& block) {
   const PlaneView& planes = surfaces_.planes();
   GoingOn going_on = wavefront_.begin_spawning(most_spawned * (block.end - block.first));
   kernels_.scatter_rays(
-      {scatters_.data(), surfaces_.of_block(), lobes_.data(), hits_.view().id + block.first,
+      {scatters_.data(), surfaces_.of_block(), lobes_.data(), met_.id + block.first,
        planes.first_id, static_cast<std::uint32_t>(planes.size),
        part(stream.throughput, block.first), stream.sample + block.first, block.end - block.first},
       going_on);

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/base/float_environment.h"
+#include "core/math/geometry.h"
 #include "core/optics/cameras.h"
 #include "core/scene/instances.h"
 #include "core/scene/scene_check.h"
@@ -99,6 +100,17 @@ std::vector<Sphere> emissive_spheres(const Scene& scene) {
   return emissive;
 }
 
+/// Of spheres that shine and are cut.
+constexpr const char* cut_light_note =
+    "spheres that shine and are cut by a clip plane are no lights to sample: paths find their "
+    "light by chance alone, with much noise";
+
+/// Gives the clip planes the ids behind those of the scene's planes. Returns how many they are.
+std::size_t add_clip_planes(Scene& scene) {
+  for (const Clip& clip : scene.clips) scene.planes.push_back({clip.point, clip.normal, {}});
+  return scene.clips.size();
+}
+
 /// What the rays through the centre of the camera's lens have in common, or all primary rays of a
 /// camera without a lens.
 Coherence central_coherence(CameraKind kind) {
@@ -130,6 +142,15 @@ Status check_size(int width, int height) {
 }
 
 }  // namespace
+
+bool PreparedScene::is_cut(const Sphere& sphere) const {
+  const std::span<const Plane> all = clip_planes();
+  return std::any_of(all.begin(), all.end(), [&sphere](const Plane& plane) {
+    const Vec3d normal = vec_cast<double>(plane.normal);
+    const Vec3d from = vec_cast<double>(sphere.center) - vec_cast<double>(plane.point);
+    return dot(from, normal) > -double{sphere.radius} * length(normal);
+  });
+}
 
 Status reframe(PreparedScene& scene, const Camera& camera, int width, int height) {
   const FloatEnvironment floats;
@@ -180,8 +201,10 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   const bool own_colors = has_own_colors(scene, parallel_for);
   std::vector<Sphere> emissive = emissive_spheres(scene);
   const std::vector<Sphere> sample = sample_spheres(scene, groups);
+  const std::size_t clips = add_clip_planes(scene);
   PreparedScene prepared{.geometry = geometry_of(scene, groups, parallel_for),
                          .planes = std::move(scene.planes),  // only now: the geometry has read them
+                         .clips = clips,
                          .of_capsules = materials_of(scene.capsules),
                          .materials = flatten_all(scene, method),
                          .plain_materials = plain_materials(scene),
@@ -196,6 +219,9 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
                          .environment = std::move(environment),
                          .distortion = std::move(scene.distortion).value_or(DistortionMap{}),
                          .notes = std::move(notes)};
+  const auto is_cut = [&prepared](const Sphere& sphere) { return prepared.is_cut(sphere); };
+  if (std::erase_if(prepared.emissive_spheres, is_cut) > 0 && method == Method::path)
+    prepared.notes.emplace_back(cut_light_note);
   if (auto done = reframe(prepared, *scene.camera, width, height); !done) return done.error();
   for (std::string& note : view_notes(prepared.camera_view, width, height, sample))
     prepared.notes.push_back(std::move(note));

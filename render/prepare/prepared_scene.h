@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,11 @@ namespace boule {
 /// A scene ready to be rendered at one size (the lecture's "preprocess"): it has a camera and a
 /// light, and is laid out for the kernels. It is immutable, except for reframe().
 struct PreparedScene {
-  Geometry geometry;                      ///< the primitives for rays
-  std::vector<Plane> planes;              ///< by id less that of the first plane, for shading
+  Geometry geometry;  ///< the primitives for rays
+  /// By id less that of the first plane, for shading: those of the scene, then clip planes, which
+  /// cut primitives and bound their caps.
+  std::vector<Plane> planes;
+  std::size_t clips = 0;                  ///< how many of them are clip planes
   std::vector<MaterialRef> of_capsules;   ///< by id less that of the first capsule
   std::vector<FlatMaterial> materials;    ///< by MaterialRef::index()
   std::vector<Material> plain_materials;  ///< by MaterialRef::index(): the base of materials in
@@ -56,6 +60,14 @@ struct PreparedScene {
   /// The plane that was hit. Precondition: the hit is that of a plane.
   [[nodiscard]] const Plane& plane(const Hit& hit) const {
     return planes[static_cast<std::uint32_t>(hit.id) - geometry.sphere_count()];
+  }
+  [[nodiscard]] std::span<const Plane> clip_planes() const { return std::span(planes).last(clips); }
+  /// Whether a clip plane cuts a part of a sphere off.
+  [[nodiscard]] bool is_cut(const Sphere& sphere) const;
+  /// The id of a primitive for users, who do not count clip planes.
+  [[nodiscard]] std::uint32_t primitive_id(const Hit& hit) const {
+    const auto id = static_cast<std::uint32_t>(hit.id);
+    return clips == 0 || !is_capsule(hit) ? id : id - static_cast<std::uint32_t>(clips);
   }
   /// The material reference of the primitive that was hit.
   [[nodiscard]] MaterialRef material_ref(const Hit& hit) const {

@@ -74,6 +74,9 @@ class Hasher {
 
   /// Comes before capsules: "capsule" as a number, which no count is.
   static constexpr std::uint64_t capsule_mark = 0x656c7573706163;
+  /// Comes before clips: "clip" as a number, beyond what counts of capsules, groups or instances
+  /// reach.
+  static constexpr std::uint64_t clip_mark = 0x70696c63000000;
 
  private:
   std::uint64_t state_ = 0;
@@ -116,6 +119,12 @@ class SceneHasher {
     hash_.add(digest_of(spheres, !shares_));
   }
   void add(const std::vector<Plane>& planes) { add_with_shown(planes); }
+  /// The same for a scene that is not cut.
+  void add(const std::vector<Clip>& clips) {
+    if (clips.empty()) return;
+    hash_.add(Hasher::clip_mark);
+    hash_.add(clips);
+  }
   void add(const std::vector<Capsule>& capsules) {
     if (count_.capsules == 0) return;
     hash_.add(Hasher::capsule_mark);

@@ -56,6 +56,9 @@ struct Primitives {
     for (std::size_t part = 0; part < view.parts.size; ++part) add(view.parts.parts[part]);
     const PlaneView& p = view.planes;
     for (std::size_t i = 0; i < p.size; ++i) planes.push_back(get_plane(p, i));
+    const Plane unseen{{}, {}, 0};  // of a view that leaves planes out, whose ids still count
+    if (view.capsules.slots > 0)
+      planes.resize(static_cast<std::size_t>(view.capsules.first_id - p.first_id), unseen);
     add(view.capsules);
   }
 

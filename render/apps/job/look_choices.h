@@ -85,6 +85,12 @@ inline auto sphere_and_color_choices() {
       choice<L>(spheres, "select", &L::select,
                 TextRule{parse_words, "such as \"type == 1 && x > 0\""}, "EXPR",
                 "Which particles are shown, such as \"type == 1 && x > 0\" (all)"),
+      choice<L>(
+          spheres, "clip", &L::clip,
+          TextRule{parse_clip, "conditions such as x<5, z>=-2 or 1,1,0<3, with ; between", ';'},
+          "WHERE",
+          "Cut particles and bonds by planes, with flat caps: what is kept, such as \"x<5\" or "
+          "\"x<5;1,1,0>2\" (all)"),
       choice<L>(spheres, "wrap", &L::wrap, FlagRule{}, "",
                 "Move particles into the cell, along its periodic edges"),
       choice<L>(spheres, "unwrap", &L::unwrap, FlagRule{}, "",

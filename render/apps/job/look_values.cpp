@@ -58,6 +58,19 @@ std::string first_hint(const std::vector<std::string>& colors) {
   return wrong == colors.end() ? std::string() : did_you_mean_color(*wrong);
 }
 
+/// "x<5" or "1,1,0>=2": a direction, < or >, and how far along it; the plane that leaves that.
+std::optional<ClipChoice> parse_one_clip(std::string text) {
+  std::erase(text, ' ');
+  const std::size_t sign = text.find_first_of("<>");
+  if (sign == std::string::npos) return std::nullopt;
+  const std::size_t end = sign + (text.substr(sign + 1).starts_with('=') ? 2 : 1);
+  const auto direction = parse_direction(text.substr(0, sign));
+  const auto height = parse_number(text.substr(end), -largest, largest);
+  if (!direction || !height) return std::nullopt;
+  const Vec3d point = *direction * (*height / dot(*direction, *direction));
+  return ClipChoice{point, text[sign] == '<' ? *direction : *direction * -1.0};
+}
+
 }  // namespace
 
 std::optional<double> parse_above_0(const std::string& text) {
@@ -144,6 +157,16 @@ std::optional<std::array<int, 3>> parse_replicate(const std::string& text) {
   const auto counts = split_numbers(text, 'x', 3, 1, std::numeric_limits<int>::max());
   if (!counts) return std::nullopt;
   return std::array{(*counts)[0], (*counts)[1], (*counts)[2]};
+}
+
+std::optional<std::vector<ClipChoice>> parse_clip(const std::string& text) {
+  std::vector<ClipChoice> clips;
+  for (const std::string& one : split(text, ';')) {
+    const auto clip = parse_one_clip(one);
+    if (!clip) return std::nullopt;
+    clips.push_back(*clip);
+  }
+  return clips;
 }
 
 std::string hint_format(const std::string& text) { return did_you_mean(text, particle_formats()); }

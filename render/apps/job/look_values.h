@@ -60,6 +60,10 @@ std::optional<std::vector<KindText>> parse_kind_radii(const std::string& text);
 /// "2x2x1": three whole numbers from 1 on.
 std::optional<std::array<int, 3>> parse_replicate(const std::string& text);
 
+/// "x<5;1,1,0>=2": half-spaces, each by an axis or the components of a vector, < or >, and a
+/// number. The planes that leave them.
+std::optional<std::vector<ClipChoice>> parse_clip(const std::string& text);
+
 /// What is probably meant where the text is not understood: "; did you mean 'viridis'?", or
 /// nothing. Of formats of particle files, of rules for bonds, of maps, of a colour, and of colours
 /// of kinds.

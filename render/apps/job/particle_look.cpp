@@ -243,6 +243,14 @@ void add_floor(std::string& text, const LookFloor& floor) {
   add_line(text, "material", toml_string(floor_material));
 }
 
+void add_clips(std::string& text, const std::vector<ClipChoice>& clips) {
+  for (const ClipChoice& clip : clips) {
+    text += "\n[[clip]]\n";
+    add_line(text, "point", vector(clip.point));
+    add_line(text, "normal", vector(clip.normal));
+  }
+}
+
 }  // namespace
 
 std::string look_scene(const std::string& file, const LookOptions& options,
@@ -255,6 +263,7 @@ std::string look_scene(const std::string& file, const LookOptions& options,
   add_camera(text, options);
   text += surroundings(options);
   if (floor) add_floor(text, *floor);
+  add_clips(text, options.clip);
   return text;
 }
 

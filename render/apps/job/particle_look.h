@@ -35,6 +35,13 @@ struct KindText {
   friend bool operator==(const KindText&, const KindText&) = default;
 };
 
+/// A plane that cuts particles: what is on the side of its normal is taken away.
+struct ClipChoice {
+  Vec3d point, normal;
+
+  friend bool operator==(const ClipChoice&, const ClipChoice&) = default;
+};
+
 /// What the command line says about the picture of a particle file. What it leaves out is chosen to
 /// fit, most of it by [[particles]] itself.
 struct LookOptions {
@@ -67,6 +74,7 @@ struct LookOptions {
   bool boundary = false;                          ///< images on the faces of the cell
   std::optional<std::array<int, 3>> replicate{};  ///< images along the cell's edges
   std::string select{};                           ///< which particles
+  std::vector<ClipChoice> clip{};                 ///< planes that cut them
   std::optional<ViewChoice> view{};               ///< in which the camera looks
   std::optional<Vec3d> up{};                      ///< upward in the picture
   double roll = 0;                                ///< degrees, counter-clockwise

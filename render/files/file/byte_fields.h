@@ -109,8 +109,9 @@ class ByteWriter {
   void add(const std::shared_ptr<const PackedSpheres>&) {}
 
  private:
-  /// Without capsules a scene has the bytes that versions without capsules give it and read.
+  /// Without capsules or clips a scene has the bytes that versions without them give it and read.
   static bool says(const std::vector<Capsule>& capsules) { return !capsules.empty(); }
+  static bool says(const std::vector<Clip>& clips) { return !clips.empty(); }
   template <class T>
   static bool says(const T&) {
     return true;

@@ -99,6 +99,10 @@ const std::function<void(Scene&)> changes[] = {
     [](Scene& s) {
       s.capsules = {{}, {}};
     },
+    [](Scene& s) { s.clips = {{}}; },
+    [](Scene& s) {
+      s.clips = {{}, {}};
+    },
 };
 
 TEST(SceneHash, ChangesWithEveryValueThatShows) {
@@ -159,6 +163,7 @@ TEST(SceneHash, ChangesWithEveryListedField) {
   expect_hashes(Background{}, [](Scene& s, const auto& b) { s.background = b; });
   expect_hashes<Sphere>([](Scene& s, const Sphere& sphere) { s.spheres = {sphere}; });
   expect_hashes<Plane>([](Scene& s, const Plane& plane) { s.planes = {plane}; });
+  expect_hashes<Clip>([](Scene& s, const Clip& clip) { s.clips = {clip}; });
   expect_hashes<Capsule>([](Scene& s, const Capsule& one) { s.capsules = {one}; });
 }
 

@@ -47,6 +47,9 @@ void add_others(Json& json, const Scene& scene, const Vec3d& origin) {
     json[std::string("first_") + kind.plural] = first_info(scene, kind.of(scene), origin);
   });
 }
+Json clips_info(const Scene& scene, const Vec3d& origin) {
+  return first_info(scene, scene.clips, origin);
+}
 Json instances_info(const LoadedScene& loaded) {
   return instances_info(loaded, loaded.scene.instances, loaded.origin);
 }

@@ -15,6 +15,8 @@ inline constexpr std::size_t most_told = 8;
 nlohmann::ordered_json spheres_info(const Scene& scene, const Vec3d& origin);
 /// Adds the first few of all other kinds: "first_planes", and so on.
 void add_others(nlohmann::ordered_json& json, const Scene& scene, const Vec3d& origin);
+/// The first few clip planes.
+nlohmann::ordered_json clips_info(const Scene& scene, const Vec3d& origin);
 nlohmann::ordered_json instances_info(const LoadedScene& loaded);
 nlohmann::ordered_json groups_info(const LoadedScene& loaded);
 

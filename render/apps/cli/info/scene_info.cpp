@@ -67,9 +67,9 @@ std::string inline_text(const Json& value) {
 
 /// True for a list of things rather than of coordinates: each gets a line.
 bool is_list(const std::string& key) {
-  for (const char* list :
-       {"data_files", "lights", "materials", "notes", "warnings", "first_spheres", "first_planes",
-        "first_capsules", "group_list", "first_instances", "species", "columns", "sections"}) {
+  for (const char* list : {"data_files", "lights", "materials", "notes", "warnings",
+                           "first_spheres", "first_planes", "first_capsules", "clips", "group_list",
+                           "first_instances", "species", "columns", "sections"}) {
     if (key == list) return true;
   }
   return false;
@@ -150,6 +150,7 @@ Json scene_info(LoadedScene loaded, const std::string& path) {
   json["materials"] = materials_info(scene);
   json["first_spheres"] = spheres_info(scene, origin);
   add_others(json, scene, origin);
+  if (!scene.clips.empty()) json["clips"] = clips_info(scene, origin);
   json["group_list"] = std::move(groups);
   json["first_instances"] = std::move(instances);
   for (const std::string& note : loaded.notes) json["notes"].push_back(note);

@@ -199,6 +199,10 @@ class Capsule(_Keys):
     material: _Material | str | None
     color: _Color | None
 
+class Clip(_Keys):
+    point: _Vector
+    normal: _Vector
+
 class Instance(_Keys):
     group: Group | str | None
     translate: _Vector
@@ -306,6 +310,7 @@ class Scene(_Objects):
     backdrop: _Color | None
     materials: dict[str, _Material]
     lights: list[_Light]
+    clips: list[Clip]
     groups: dict[str, Group]
     origin: str | _Vector
     notes: list[str]
@@ -327,8 +332,10 @@ class Scene(_Objects):
         groups: Mapping[str, Group] | None = ...,
         instances: Sequence[Instance] | None = ...,
         capsules: Sequence[Capsule | Capsules] | None = ...,
+        clips: Sequence[Clip] | None = ...,
         origin: str | _Vector = ...,
     ) -> None: ...
+    def add_clip(self, **keys: Clip) -> Clip: ...
     def add_group(self, name: str) -> Group: ...
     def rays(
         self,
@@ -525,6 +532,41 @@ def view(
     threads: int | None = ...,
     height: int = ...,
     **look: _FromFile,
+    look: _Look | None = ...,
+    quick: bool = ...,
+    floor: bool = ...,
+    input_format: str | None = ...,
+    columns: str | Sequence[str] | None = ...,
+    water: bool = ...,
+    topology: str | None = ...,
+    color: str | None = ...,
+    colors: str | Mapping[str, str] | None = ...,
+    map: _Map | None = ...,
+    range: Sequence[float] | None = ...,
+    nan_color: str | None = ...,
+    radius: float | str | None = ...,
+    radii: str | Mapping[str, float] | None = ...,
+    scale: float | None = ...,
+    style: _Style | None = ...,
+    bonds: float | str | None = ...,
+    bond_radius: float | None = ...,
+    bond_color: str | None = ...,
+    cell_edges: bool = ...,
+    axes: bool = ...,
+    arrows: str | Sequence[str] | None = ...,
+    arrow_scale: float | None = ...,
+    select: str | None = ...,
+    clip: str | Sequence[str] | None = ...,
+    wrap: bool = ...,
+    unwrap: bool = ...,
+    boundary: bool = ...,
+    replicate: str | Sequence[int] | None = ...,
+    view: str | _Vector | None = ...,
+    up: str | _Vector | None = ...,
+    roll: float | None = ...,
+    ortho: bool = ...,
+    fov: float | None = ...,
+    margin: float | None = ...,
 ) -> View: ...
 class _Shown(_Keys):
     """How particles are shown."""
@@ -549,6 +591,7 @@ class _Shown(_Keys):
     arrows: str | Sequence[str] | None
     arrow_scale: float | None
     select: str | None
+    clip: str | Sequence[str] | None
     wrap: bool
     unwrap: bool
     boundary: bool

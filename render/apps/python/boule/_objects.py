@@ -327,6 +327,12 @@ class Capsule(Table):
     """All points within radius of the segment from a to b; a sphere if they are equal."""
 
 
+@_of("clip", "clip", type_key=False)
+class Clip(Table):
+    """A plane through point that cuts spheres and capsules in pictures: normal points to what is
+    taken away. Each cut is closed by a flat cap."""
+
+
 @_of("instance", "instance", type_key=False)
 class Instance(Table):
     """A copy of a group, which is scaled, then rotated (degrees about x, y, z), then moved."""

@@ -60,6 +60,7 @@ def scene_of(values):
         backdrop=values["backdrop"],
         materials={name: _object("material", keys) for name, keys in values["materials"]},
         lights=[_object("light", keys) for keys in values["lights"]],
+        clips=[_made(objects.Clip, keys) for keys in values["clips"]],
         origin=values["origin"],
     )
     _fill(scene, values)

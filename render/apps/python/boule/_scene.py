@@ -7,6 +7,7 @@ from . import _checks as checks
 from ._objects import (
     KINDS,
     Capsule,
+    Clip,
     Distortion,
     Fit,
     ImageSettings,
@@ -249,6 +250,7 @@ _planes = checks.list_of("plane", "a Plane", checks.is_instance(Plane))
 _capsules = checks.list_of("capsules", "capsules", checks.is_instance(Capsule, Capsules))
 _instances = checks.list_of("instance", "an Instance", checks.is_instance(Instance))
 _lights = checks.list_of("light", "a light", checks.is_kind("light"))
+_clips = checks.list_of("clip", "a Clip", checks.is_instance(Clip))
 _notes = checks.list_of("notes", "text", checks.is_instance(str))
 _warnings = checks.list_of("warnings", "text", checks.is_instance(str))
 _materials = checks.dictionary_of("material", "a material", checks.is_kind("material"))
@@ -322,6 +324,7 @@ class Scene(_Objects):
     backdrop: the colour that the camera sees behind all objects, not the background; or None.
     materials: a dictionary of materials by name.
     lights: a list of PointLight, DirectionalLight, SphereLight.
+    clips: a list of Clip: planes that cut spheres and capsules in pictures, not for a Tracer.
     spheres: a list of Sphere, Spheres and Particles; ids count them in this order.
     planes, instances: lists of Plane and Instance.
     capsules: a list of Capsule and Capsules; their ids follow those of the planes.
@@ -336,15 +339,15 @@ class Scene(_Objects):
     _checks = {
         "image": checks.one("image"), "render": checks.one("render"), "camera": checks.camera,
         "background": checks.one("background"), "ambient": checks.color, "backdrop": checks.color,
-        "materials": _materials, "lights": _lights, "spheres": _spheres, "planes": _planes,
-        "capsules": _capsules, "groups": _groups, "instances": _instances,
+        "materials": _materials, "lights": _lights, "clips": _clips, "spheres": _spheres,
+        "planes": _planes, "capsules": _capsules, "groups": _groups, "instances": _instances,
         "origin": checks.origin, "notes": _notes, "warnings": _warnings, "legend": checks.text,
     }  # fmt: skip
 
     def __init__(
         self, *, image=None, render=None, camera=None, background=None, ambient=(0.0, 0.0, 0.0),
         backdrop=None, materials=None, lights=None, spheres=None, planes=None, groups=None,
-        instances=None, capsules=None, origin="auto",
+        instances=None, capsules=None, clips=None, origin="auto",
     ):  # fmt: skip
         self.image = ImageSettings() if image is None else image
         self.render = RenderSettings() if render is None else render
@@ -354,6 +357,7 @@ class Scene(_Objects):
         self.backdrop = backdrop
         self.materials = {} if materials is None else dict(_materials("materials", materials))
         self.lights = [] if lights is None else list(_lights("lights", lights))
+        self.clips = [] if clips is None else list(_clips("clips", clips))
         self.spheres = [] if spheres is None else list(_spheres("spheres", spheres))
         self.planes = [] if planes is None else list(_planes("planes", planes))
         self.capsules = [] if capsules is None else list(_capsules("capsules", capsules))
@@ -369,6 +373,11 @@ class Scene(_Objects):
             f"<boule.Scene: {len(self.spheres)} entries of spheres, {len(self.planes)} planes, "
             f"{len(self.lights)} lights>"
         )
+
+    def add_clip(self, **keys):
+        """Adds a clip plane: see Clip, which it returns."""
+        self.clips.append(Clip(**keys))
+        return self.clips[-1]
 
     def add_group(self, name):
         """Adds a group without objects, and returns it."""
@@ -427,6 +436,7 @@ class Scene(_Objects):
         background["backdrop"] = self.backdrop
         tree["background"] = background
         tree["light"] = [light._table(None) for light in _lights("lights", self.lights)]
+        tree["clip"] = [clip._table(None) for clip in _clips("clips", self.clips)]
         objects = self._object_tables(names)
         groups = {}
         done = 0

@@ -71,8 +71,8 @@ def load(source, *, frame=None, polygons="plane", **look):
         range, nan_color, radius, radii (a dictionary of radii by species), scale, style
         ("space-filling", "balls-and-sticks", "sticks"), bonds (a rule, or a distance),
         bond_radius, bond_color, cell_edges, axes, arrows (three columns, or the one name that they
-        have before x, y, z), arrow_scale, select, wrap, unwrap, boundary, replicate, view, up,
-        roll, ortho, fov, margin.
+        have before x, y, z), arrow_scale, select, clip ("x<5", or a list of such), wrap, unwrap,
+        boundary, replicate, view, up, roll, ortho, fov, margin.
 
     Raises boule.Error with file, line, column and key.
     """

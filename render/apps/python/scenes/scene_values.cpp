@@ -37,6 +37,7 @@ class SceneValues {
   [[nodiscard]] py::dict background() const;
   [[nodiscard]] py::list materials() const;
   [[nodiscard]] py::list lights() const;
+  [[nodiscard]] py::list clips() const;
   template <class Arrays, class Primitive>
   [[nodiscard]] py::object many(std::vector<Primitive>&& primitives, const Vec3d& base) const;
   [[nodiscard]] py::list planes(const std::vector<Plane>& planes, const FieldValues& values) const;
@@ -139,6 +140,12 @@ py::list SceneValues::lights() const {
   return all;
 }
 
+py::list SceneValues::clips() const {
+  py::list all;
+  for (const Clip& clip : loaded_.scene.clips) all.append(world_.of(clip));
+  return all;
+}
+
 template <class Arrays, class Primitive>
 py::object SceneValues::many(std::vector<Primitive>&& primitives, const Vec3d& base) const {
   if (primitives.empty()) return py::none();
@@ -212,6 +219,7 @@ py::dict SceneValues::all() {
   values["backdrop"] = scene.backdrop ? to_python(*scene.backdrop) : py::object(py::none());
   values["materials"] = materials();
   values["lights"] = lights();
+  values["clips"] = clips();
   values["instances"] = instances(scene.instances, loaded_.origin);
   values["groups"] = groups();
   add_objects(values, scene, loaded_.origin, world_);

@@ -110,6 +110,7 @@ void read_table(const std::string& kind, const TomlMembers& members, FirstError&
   if (kind == "background") return static_cast<void>(read_background(table, scene));
   if (kind == "material") return static_cast<void>(read_material(table));
   if (kind == "light") return static_cast<void>(read_light(table));
+  if (kind == "clip") return static_cast<void>(read_clip(table));
   if (kind == "sphere") return read_object<Sphere>(table);
   if (kind == "plane") return read_object<Plane>(table);
   if (kind == "capsule") return read_object<Capsule>(table);
@@ -205,6 +206,7 @@ py::dict list_fields() {
   all["background"] = kinds<Background>();
   all["material"] = kinds<Material>();
   all["light"] = kinds<Light>();
+  all["clip"] = kinds<Clip>();
   all["sphere"] = kinds<Sphere>();
   all["plane"] = kinds<Plane>();
   all["capsule"] = kinds<Capsule>();

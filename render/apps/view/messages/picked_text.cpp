@@ -35,7 +35,7 @@ Json hit_json(const PickedPixel& pixel, const RecordedRay& primary) {
   const PreparedScene& scene = pixel.scene;
   const Vec3d& origin = pixel.loaded.origin;
   const Surface surface = find_surface(scene, primary.ray, primary.hit);
-  const auto id = static_cast<std::uint32_t>(primary.hit.id);
+  const std::uint32_t id = scene.primitive_id(primary.hit);
   const bool is_sphere = scene.is_sphere(primary.hit), is_capsule = scene.is_capsule(primary.hit);
   Json json = {
       {"primitive", id},
@@ -69,7 +69,7 @@ Json ray_json(const PickedPixel& pixel, const RecordedRay& ray, const Color& ret
                {"depth", ray.depth},
                {"t", met ? number(ray.hit.t) : Json()},
                {"distance", met ? number(ray.hit.t * size) : Json()},
-               {"primitive", met ? Json(static_cast<std::uint32_t>(ray.hit.id)) : Json()},
+               {"primitive", met ? Json(pixel.scene.primitive_id(ray.hit)) : Json()},
                {"material", met ? material_name(pixel, ray.hit) : Json()},
                {"weight", color(ray.weight)},
                {"throughput", color(ray.throughput)},

@@ -85,4 +85,10 @@ Light read_light(TomlTable& table) {
   return read_kind<Light>(table, [](auto& from, auto& kind) { read_entity(from, kind); });
 }
 
+Clip read_clip(TomlTable& table) {
+  Clip clip;
+  read_entity(table, clip);
+  return clip;
+}
+
 }  // namespace boule

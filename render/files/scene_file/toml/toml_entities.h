@@ -14,5 +14,6 @@ RenderSettings read_render(TomlTable& table);
 Background read_background(TomlTable& table, Scene& scene);
 Material read_material(TomlTable& table);
 Light read_light(TomlTable& table);
+Clip read_clip(TomlTable& table);
 
 }  // namespace boule

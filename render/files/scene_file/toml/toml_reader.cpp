@@ -63,6 +63,7 @@ Result<LoadedScene> TomlReader::read() {
   auto materials = root_.named_tables("material");
   auto lights = root_.tables("light");
   auto objects = object_tables(root_);
+  auto clips = root_.tables("clip");
   auto groups = root_.named_tables("group");
   packed_ = read_packed(root_, options_);
   auto inside = tables_in(groups);
@@ -89,6 +90,8 @@ Result<LoadedScene> TomlReader::read() {
   if (camera) read_camera_table(*camera);
   if (background) read_background_table(*background);
   for (TomlTable& light : lights) scene_.lights.push_back(read_light(light));
+  if (!clips.empty()) scene_.clips.clear();
+  for (TomlTable& clip : clips) scene_.clips.push_back(read_clip(clip));
   reader.read_scene(objects, loaded_.group_origins);
   for (std::size_t i = 0; i < groups.size(); ++i) {
     reader.read_group(i, inside[i], loaded_.group_origins);
