@@ -14,7 +14,7 @@ void RayRecord::start() {
 }
 
 /// The order is that of Wavefront: the first child comes first, and all that follows from it.
-void RayRecord::begin(const Ray& ray, const Hit& hit, const Color& throughput) {
+void RayRecord::begin(const Ray& ray, const Hit& hit, const Hit& met, const Color& throughput) {
   while (!children_.empty()) {
     waiting_.push_back(children_.back());
     children_.pop_back();
@@ -29,6 +29,7 @@ void RayRecord::begin(const Ray& ray, const Hit& hit, const Color& throughput) {
                    .depth = depth,
                    .ray = ray,
                    .hit = hit,
+                   .met = met,
                    .weight = expected.weight,
                    .throughput = throughput,
                    .own = {}});
@@ -43,6 +44,7 @@ void RayRecord::add_shadow(std::size_t light, const Ray& ray, const Hit& hit,
                    .depth = from.depth,
                    .ray = ray,
                    .hit = hit,
+                   .met = {},
                    .weight = gray(1),
                    .throughput = from.throughput,
                    .own = arriving,

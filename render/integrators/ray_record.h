@@ -20,6 +20,7 @@ struct RecordedRay {
   int depth = 0;    ///< bounces before it
   Ray ray{};
   Hit hit{};           ///< of a shadow ray: the hit that blocks it
+  Hit met{};           ///< the same as a surface: SceneSearch::surfaces(); not of shadow rays
   Color weight{};      ///< in the light that its parent returns
   Color throughput{};  ///< in the sample
   Color own{};         ///< light found by the ray itself; of a shadow ray: the light that it lets
@@ -37,7 +38,7 @@ class RayRecord {
   /// Forgets all rays.
   void start();
   /// Begins the next ray of the recursion, which the last calls of expect() announced.
-  void begin(const Ray& ray, const Hit& hit, const Color& throughput);
+  void begin(const Ray& ray, const Hit& hit, const Hit& met, const Color& throughput);
   /// Adds a shadow ray of the current ray to one of the lights.
   void add_shadow(std::size_t light, const Ray& ray, const Hit& hit, const Color& arriving);
   /// Announces a child of the current ray.

@@ -18,8 +18,8 @@ namespace boule {
 /// what is left where it is in the whole one and behind all clip planes: between the greater t of
 /// entering and the lesser t of leaving, each in double. A hit is the first of the two ends within
 /// the ray's interval. Where a plane makes that end it is a hit of a cap, whose surface is the
-/// plane's; of several caps, that of the lowest id. A whole primitive that is entered where a ray
-/// comes from beyond a plane counts as cut there. Planes of the scene are left whole.
+/// plane's; of several caps, that of the lowest id. A primitive that is entered at just that t has
+/// one, too. Planes of the scene are left whole.
 class SceneSearch {
  public:
   /// `scene` and `kernels` must outlive it.

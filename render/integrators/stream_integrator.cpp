@@ -74,7 +74,7 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
   if (settings_.shadow_epsilon) find_float_points(stream);
   if (settings_.record != nullptr)
     settings_.record->begin(
-        stream.rays->get(0), hit(0),
+        stream.rays->get(0), hit(0), {met_.t[0], met_.id[0], met_.slot[0]},
         {stream.throughput.r[0], stream.throughput.g[0], stream.throughput.b[0]});
   if (first_hits && camera.covered != nullptr) tell_coverage(camera.covered);
   for (std::size_t first = 0; first < count; first += StreamSurfaces::block_size) {

@@ -61,7 +61,8 @@ OutlineWorker::OutlineWorker(const BlockSetup& setup, const Lines& lines)
       frame_(scaled(lines.frame, outline_grid)),
       width_(lines.width),
       discs_(discs_of_lines(lines.width)),
-      order_(block_pixels(chunk)) {
+      order_(block_pixels(chunk)),
+      search_(setup.scene, setup.kernels) {
   samples_.resize(chunk * chunk, setup.scene.camera_view);
   samples_.resize(2);
   rays_.resize(2);
@@ -87,6 +88,7 @@ void OutlineWorker::find(const PixelRect& block, Outline& outline) {
 
 void OutlineWorker::find_hits() {
   seen_.assign(static_cast<std::size_t>(points_.area()), Hit{});
+  if (setup_.scene.clips > 0) surfaces_.assign(seen_.size(), no_primitive);
   for (int y = points_.y0; y < points_.y1; y += chunk) {
     for (int x = points_.x0; x < points_.x1; x += chunk) trace(x, y);
   }
@@ -114,11 +116,13 @@ void OutlineWorker::trace(int x0, int y0) {
   primary_ += rays_.size();
   hits_.resize(rays_.size());
   const Query query{solver_, Form::automatic, setup_.scene.central_coherence};
-  setup_.kernels.closest_hit(setup_.scene.geometry.view(), rays_.view(), query, hits_.view());
+  search_.closest_hit(rays_.view(), query, hits_.view());
+  const HitStream met = search_.surfaces(hits_.view(), caps_);
   std::size_t ray = 0;
   each_point([&](std::size_t k, int x, int y) {
     const bool has_ray = !camera.weighs || samples_.weight(k) != 0;
     if (!has_ray) return;
+    if (!surfaces_.empty()) surfaces_[points_.index(x, y)] = met.id[ray];
     Hit& seen = seen_[points_.index(x, y)] = hits_.get(ray);
     seen.t *= length(vec_cast<double>(rays_.dir(ray++)));
   });
@@ -140,15 +144,16 @@ const std::vector<int>& OutlineWorker::disc_between(const Hit& a, const Hit& b) 
 }
 
 /// Marks every point whose distance from a change is half the line's width or less. A change lies
-/// in the middle between two neighbours that see different primitives.
+/// in the middle between two neighbours that see different primitives, or a primitive and its cap.
 void OutlineWorker::mark_changes() {
   for (int y = points_.y0; y < points_.y1; ++y) {
     for (int x = points_.x0; x < points_.x1; ++x) {
       const Hit& here = hit(x, y);
-      if (x + 1 < points_.x1 && here.id != hit(x + 1, y).id) {
+      const std::size_t at = points_.index(x, y);
+      if (x + 1 < points_.x1 && changes(at, points_.index(x + 1, y))) {
         mark_beside(x, y, disc_between(here, hit(x + 1, y)));
       }
-      if (y + 1 < points_.y1 && here.id != hit(x, y + 1).id) {
+      if (y + 1 < points_.y1 && changes(at, points_.index(x, y + 1))) {
         mark_below(x, y, disc_between(here, hit(x, y + 1)));
       }
     }

@@ -7,6 +7,7 @@
 #include "core/math/vec.h"
 #include "render/frame/pixel_rect.h"
 #include "render/image/image.h"
+#include "render/integrators/scene_search.h"
 #include "render/renderer/block_worker.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/stream/stream_buffer.h"
@@ -85,6 +86,9 @@ class OutlineWorker {
   void mark(int y, int first, int last);
   void count_points(const PixelRect& block, Outline& outline) const;
   [[nodiscard]] const std::vector<int>& disc_between(const Hit& a, const Hit& b) const;
+  [[nodiscard]] bool changes(std::size_t a, std::size_t b) const {
+    return seen_[a].id != seen_[b].id || (!surfaces_.empty() && surfaces_[a] != surfaces_[b]);
+  }
   [[nodiscard]] const Hit& hit(int x, int y) const { return seen_[points_.index(x, y)]; }
 
   const BlockSetup& setup_;
@@ -96,13 +100,16 @@ class OutlineWorker {
   std::vector<std::vector<int>> discs_;
   Vec3d step_org_, step_dir_;  ///< from one pixel to the next, in the middle of the frame
   std::vector<PixelOffset> order_;
-  PixelRect marked_;        ///< the points of the block
-  PixelRect points_;        ///< those and the relevant ones around them
-  std::vector<Hit> seen_;   ///< by `points_`; t in units of length
+  PixelRect marked_;       ///< the points of the block
+  PixelRect points_;       ///< those and the relevant ones around them
+  std::vector<Hit> seen_;  ///< by `points_`; t in units of length
+  std::vector<std::int32_t>
+      surfaces_;            ///< likewise: ids of SceneSearch::surfaces(), where any is cut
   std::vector<int> steps_;  ///< of `marked_`: number of lines that begin less number that end
+  SceneSearch search_;
   SampleBuffer samples_;
   RayBuffer rays_;
-  HitBuffer hits_;
+  HitBuffer hits_, caps_;
   std::uint64_t primary_ = 0;
 };
 

@@ -51,6 +51,13 @@ inline auto file_and_view_choices() {
                 "A sketch in place of a look: a headlight, 4 samples"),
       choice<L>(look, "floor", &L::floor, FlagRule{}, "", "A floor below the particles"),
       choice<L>(
+          look, "clip", &L::clip,
+          TextRule{parse_clip,
+                   "what is kept, such as x<5, z>=-2 or 1,1,0<3, with ; between several", ';'},
+          "WHERE",
+          "Cut particles and bonds by planes, with flat caps, such as \"x<5\", which keeps "
+          "that, or \"x<5;1,1,0>2\""),
+      choice<L>(
           look, "view", &L::view,
           TextRule{parse_view, std::string("principal, upright, ") + directions, ',', hint_view},
           "DIR",
@@ -85,12 +92,6 @@ inline auto sphere_and_color_choices() {
       choice<L>(spheres, "select", &L::select,
                 TextRule{parse_words, "such as \"type == 1 && x > 0\""}, "EXPR",
                 "Which particles are shown, such as \"type == 1 && x > 0\" (all)"),
-      choice<L>(
-          spheres, "clip", &L::clip,
-          TextRule{parse_clip, "conditions such as x<5, z>=-2 or 1,1,0<3, with ; between", ';'},
-          "WHERE",
-          "Cut particles and bonds by planes, with flat caps: what is kept, such as \"x<5\" or "
-          "\"x<5;1,1,0>2\" (all)"),
       choice<L>(spheres, "wrap", &L::wrap, FlagRule{}, "",
                 "Move particles into the cell, along its periodic edges"),
       choice<L>(spheres, "unwrap", &L::unwrap, FlagRule{}, "",

@@ -48,6 +48,7 @@ struct LookOptions {
   Look look = Look::paper;
   bool quick = false;                             ///< a sketch, in place of the look's light
   bool floor = false;                             ///< a plane below the particles
+  std::vector<ClipChoice> clip{};                 ///< planes that cut particles and bonds
   std::string format{};                           ///< of the file; empty: as it seems to be
   std::vector<std::string> columns{};             ///< names for the columns; empty: the file's own
   std::optional<int> frame{};                     ///< of the file; negative: from its end
@@ -74,7 +75,6 @@ struct LookOptions {
   bool boundary = false;                          ///< images on the faces of the cell
   std::optional<std::array<int, 3>> replicate{};  ///< images along the cell's edges
   std::string select{};                           ///< which particles
-  std::vector<ClipChoice> clip{};                 ///< planes that cut them
   std::optional<ViewChoice> view{};               ///< in which the camera looks
   std::optional<Vec3d> up{};                      ///< upward in the picture
   double roll = 0;                                ///< degrees, counter-clockwise

@@ -34,7 +34,7 @@ Json hit_json(const PickedPixel& pixel, const RecordedRay& primary) {
   if (primary.hit.id == no_primitive) return nullptr;
   const PreparedScene& scene = pixel.scene;
   const Vec3d& origin = pixel.loaded.origin;
-  const Surface surface = find_surface(scene, primary.ray, primary.hit);
+  const Surface surface = find_surface(scene, primary.ray, primary.met);
   const std::uint32_t id = scene.primitive_id(primary.hit);
   const bool is_sphere = scene.is_sphere(primary.hit), is_capsule = scene.is_capsule(primary.hit);
   Json json = {

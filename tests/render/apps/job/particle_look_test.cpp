@@ -64,6 +64,14 @@ TEST(ParticleLook, HasExactlyTheOptions) {
                                         "range = [-1, 2.5]\n\n"));
 }
 
+TEST(ParticleLook, HasClipPlanes) {
+  LookOptions look;
+  EXPECT_THAT(scene_of(look), Not(HasSubstr("[[clip]]")));
+  look.clip = {{{5, 0, 0}, {1, 0, 0}}, {{0, 0.5, 0}, {0, -1, 0}}};
+  EXPECT_THAT(scene_of(look), HasSubstr("\n[[clip]]\npoint = [5, 0, 0]\nnormal = [1, 0, 0]\n"
+                                        "\n[[clip]]\npoint = [0, 0.5, 0]\nnormal = [0, -1, 0]\n"));
+}
+
 TEST(ParticleLook, HasTheOptionsOfBonds) {
   LookOptions look;
   look.style = ParticleShape::balls_and_sticks;

@@ -9,7 +9,7 @@ import boule
 
 
 @pytest.mark.parametrize("name", [
-    "lights", "spheres", "planes", "capsules", "instances", "materials", "groups"])  # fmt: skip
+    "lights", "clips", "spheres", "planes", "capsules", "instances", "materials", "groups"])  # fmt: skip
 @pytest.mark.parametrize("value", [None, 3])
 def test_a_list_that_is_none_is_refused(ball, name, value):
     before = getattr(ball, name)
@@ -60,6 +60,7 @@ WRONG_VALUES = {
     "backdrop": ["dark", (1, 2, 3, 4), {}],
     "materials": [[1], {"a": 3}, {3: boule.Matte()}, {"a": boule.Sphere()}],
     "lights": [3, [3], boule.PointLight(position=(0, 0, 0)), [boule.Sphere()]],
+    "clips": [3, boule.Clip(), [boule.Plane()]],
     "spheres": [boule.Sphere(), [boule.Plane()], [[0, 0, 0, 1]]],
     "planes": [boule.Plane(), [boule.Sphere()]],
     "capsules": [boule.Capsule(), [boule.Sphere()], [[0, 0, 0, 1, 1, 1, 1]]],

@@ -81,6 +81,12 @@ TEST(LookOptions, OfKindsAndCellsAreKept) {
   EXPECT_TRUE(look.boundary);
 }
 
+TEST(LookOptions, ClipsKeepWhatTheySay) {
+  const auto clips = look_of({"--clip", "x<5; -y >= 2;1,1,0>4"}).clip;
+  EXPECT_EQ(clips, (std::vector<ClipChoice>{
+                       {{5, 0, 0}, {1, 0, 0}}, {{0, -2, 0}, {0, 1, 0}}, {{2, 2, 0}, {-1, -1, 0}}}));
+}
+
 TEST(LookOptions, MapColumnNamesMayHaveBlanks) {
   for (const char* color : {"Velocity Magnitude", "Mean Flow Speed"}) {
     EXPECT_EQ(look_of({"--color", color, "--map", "turbo", "--range", "0,1"}).map, "turbo");
@@ -139,6 +145,10 @@ const Wrong wrong_looks[] = {
     {{"--colors", "=red"}, "--colors: '=red' is not understood"},
     {{"--colors", "O=red,O=blue"}, "each kind once"},
     {{"--radii", "Na=0"}, "--radii: 'Na=0' is not understood"},
+    {{"--clip", "x=5"}, "--clip: 'x=5' is not understood, expected what is kept, such as x<5"},
+    {{"--clip", "x<5;"}, "--clip: 'x<5;' is not understood"},
+    {{"--clip", "0,0,0<5"}, "--clip: '0,0,0<5' is not understood"},
+    {{"--clip", "x<nan"}, "--clip: 'x<nan' is not understood"},
     {{"--nan-color", "sliver"}, "; did you mean 'silver'?"},
     {{"--background", "transparant"}, "; did you mean 'transparent'?"},
     {{"--background", "Blakc"}, "; did you mean 'black'?"},
