@@ -344,3 +344,26 @@ def test_groups_that_contain_themselves(ball):
     deep.append(deep)
     with pytest.raises(boule.Error, match="nested too deep"):
         boule.Plastic(color=deep)
+
+
+def test_clips_are_those_of_scene_files(ball, tmp_path):
+    whole = np.asarray(boule.render(ball))
+    clip = ball.add_clip(point=(0.3, 0, 0), normal=(1, 0, 0.2))
+    assert ball.clips == [clip]
+    cut = np.asarray(boule.render(ball))
+    assert not np.array_equal(cut, whole)
+    path = tmp_path / "cut.toml"
+    path.write_text(
+        'schema = 1\n[image]\nsize = [64, 48]\n[camera]\neye = [0, 2, 6]\nlook_at = [0, 1, 0]\n'
+        '[[light]]\ntype = "point"\nposition = [4, 6, 4]\n[material.m]\ntype = "plastic"\n'
+        'color = "#c83214"\n[[sphere]]\ncenter = [0, 1, 0]\nmaterial = "m"\n[[plane]]\n'
+        "[[clip]]\npoint = [0.3, 0, 0]\nnormal = [1, 0, 0.2]\n"
+    )
+    assert np.array_equal(np.asarray(boule.render(path)), cut)
+    read = boule.load(path)
+    assert np.array_equal(np.asarray(boule.render(read)), cut)
+    assert np.array_equal(np.asarray(boule.render(pickle.loads(pickle.dumps(read)))), cut)
+    assert boule.Tracer(ball).closest((2, 1, 0), (-1, 0, 0)).t[0] == 1  # it meets the whole
+    with pytest.raises(boule.Error, match="must not be the zero vector") as caught:
+        boule.Clip(normal=(0, 0, 0))
+    assert caught.value.key == "normal"
