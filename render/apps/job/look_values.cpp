@@ -65,7 +65,7 @@ std::optional<ClipChoice> parse_one_clip(std::string text) {
   if (sign == std::string::npos) return std::nullopt;
   const std::size_t end = sign + (text.substr(sign + 1).starts_with('=') ? 2 : 1);
   const auto direction = parse_direction(text.substr(0, sign));
-  const auto height = parse_number(text.substr(end), -largest, largest);
+  const auto height = parse_number(text.substr(end), -largest_number, largest_number);
   if (!direction || !height) return std::nullopt;
   const Vec3d point = *direction * (*height / dot(*direction, *direction));
   return ClipChoice{point, text[sign] == '<' ? *direction : *direction * -1.0};
