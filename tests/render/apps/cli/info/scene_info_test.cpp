@@ -342,7 +342,7 @@ const Kind kinds[] = {
      "[[capsule]]",
      {{"a", "[1, 2, 3]", "[1, 2, 4]"}, {"b", "[0, 1, 0]", "[0, 2, 0]"}, radius, material, color}},
     {"clip",
-     "[[sphere]]",
+     "[[sphere]]\n",
      "[[clip]]",
      {{"point", "[0, 0.1, 0]", "[0, 0.2, 0]"}, {"normal", "[0, 1, 0]", "[0, 2, 0]"}}},
     {"instance",
