@@ -38,6 +38,7 @@ struct CameraFit {
   /// None: upright, unless a reader knows that axes mean nothing. Principal has no direction or up.
   std::optional<FittedPose> pose{};
   float roll = 0;  ///< degrees by which the picture turns counter-clockwise
+  float room = 0;  ///< left free at the right for a legend, as a fraction of the picture's width
 
   friend bool operator==(const CameraFit&, const CameraFit&) = default;
 };
@@ -48,7 +49,8 @@ inline constexpr auto fields<CameraFit> = field_list(
     field("direction", &CameraFit::direction, rule::direction),
     field("up", &CameraFit::up, rule::direction), field("fov", &CameraFit::fov, rule::acute_view),
     field("fov_axis", &CameraFit::fov_axis), field("margin", &CameraFit::margin, rule::margin),
-    field("pose", &CameraFit::pose), field("roll", &CameraFit::roll, rule::finite));
+    field("pose", &CameraFit::pose), field("roll", &CameraFit::roll, rule::finite),
+    field("room", &CameraFit::room, rule::margin));
 
 /// The first Problem of a fit: a field against its rule, or up within 1e-6 rad of the direction.
 std::optional<Problem> find_problem(const CameraFit& fit);

@@ -34,6 +34,7 @@ void check_whole(ProblemFinder& finder, const CameraPose& pose) {
 void check_whole(ProblemFinder& finder, const CameraFit& fit) {
   finder.require("pose", fit.pose != FittedPose::principal || !(fit.direction || fit.up),
                  "principal takes neither a direction nor an up");
+  finder.require("room", 2 * fit.margin + fit.room < 1, "must leave some of the picture");
   if (!fit.direction || !fit.up) return;
   check_up(finder, normalize(vec_cast<double>(*fit.direction)), *fit.up);
 }

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "core/math/color.h"
 #include "core/math/geometry.h"
@@ -81,6 +83,12 @@ class ProblemFinder {
   template <class Enum>
   requires std::is_enum_v<Enum>
   void check(std::string_view, const TypeRule&, Enum) {}
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void check(std::string_view key, const TypeRule&, const std::vector<Enum>& some) {
+    for (const Enum one : some)
+      require(key, std::count(some.begin(), some.end(), one) == 1, "must have each name once");
+  }
   void check(std::string_view, const TypeRule&, bool) {}
   /// validate() checks whether the scene has the material or group.
   void check(std::string_view, const MaterialRule&, std::uint32_t) {}

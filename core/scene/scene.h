@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/base/error.h"
@@ -43,6 +45,16 @@ enum class PixelFilter { box, tent };
 template <>
 inline constexpr std::array<std::string_view, 2> names<PixelFilter>{"box", "tent"};
 
+/// What can be drawn on a picture: what colours mean, a bar of a known length, the directions of x,
+/// y and z, the time or the frame of a series.
+enum class OverlayPart { legend, scale, axes, time };
+template <>
+inline constexpr std::array<std::string_view, 4> names<OverlayPart>{"legend", "scale", "axes",
+                                                                    "time"};
+
+/// Which of these, each once.
+using OverlayParts = std::vector<OverlayPart>;
+
 /// The picture a scene asks for; the command line may override it.
 struct ImageSettings {
   int width = 1280;  ///< pixels, 1 .. 65535
@@ -51,6 +63,7 @@ struct ImageSettings {
   PixelFilter filter = PixelFilter::box;
   bool transparent = false;  ///< with alpha: the fraction of a pixel that objects cover
   float outline = 0;         ///< width of dark lines around objects, in pixels; 0: off
+  OverlayParts overlay{};    ///< drawn on the finished picture
 };
 
 template <>
@@ -58,7 +71,8 @@ inline constexpr auto fields<ImageSettings> = field_list(
     "image", field("size", &ImageSettings::width, &ImageSettings::height, rule::image_side),
     field("spp", &ImageSettings::spp, rule::samples), field("filter", &ImageSettings::filter),
     field("transparent", &ImageSettings::transparent),
-    field("outline", &ImageSettings::outline, rule::outline));
+    field("outline", &ImageSettings::outline, rule::outline),
+    field("overlay", &ImageSettings::overlay));
 
 /// The rendering method. whitted: direct light, mirrors and glass. path: all light, by path
 /// tracing.

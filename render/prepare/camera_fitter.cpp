@@ -29,15 +29,16 @@ HalfTangents half_tangents(double fov, FovAxis axis, double width, double height
   return {tangent * width / side, tangent * height / side};
 }
 
-/// The sine of an acute angle whose tangent is known.
-double sine_of(double tangent) { return tangent / std::sqrt(1 + tangent * tangent); }
-double cosine_of(double tangent) { return 1 / std::sqrt(1 + tangent * tangent); }
-
 FovAxis axis_of(const CameraFit& fit, int width, int height) {
   return fit.fov_axis.value_or(width <= height ? FovAxis::x : FovAxis::y);
 }
 
 }  // namespace
+
+void CameraFitter::Side::set(double tangent) {
+  sine = tangent / std::sqrt(1 + tangent * tangent);
+  cosine = 1 / std::sqrt(1 + tangent * tangent);
+}
 
 CameraFitter::CameraFitter(const CameraFit& fit, const View& view, int width, int height)
     : fit_(fit), width_(width), height_(height), forward_(view.direction) {
@@ -45,11 +46,11 @@ CameraFitter::CameraFitter(const CameraFit& fit, const View& view, int width, in
   up_ = cross(right_, forward_);
   if (fit_.type == FittedCamera::orthographic) return;
   const auto [x, y] = half_tangents(double{fit_.fov}, axis_of(fit_, width, height), width, height);
-  const double used = 1 - 2 * double{fit_.margin};
-  x_.sine = sine_of(x * used);
-  x_.cosine = cosine_of(x * used);
-  y_.sine = sine_of(y * used);
-  y_.cosine = cosine_of(y * used);
+  const double used = 1 - 2 * double{fit_.margin}, taken = 2 * double{fit_.room};
+  x_.low.set(x * used);
+  x_.high.set(x * (used - taken));
+  y_.low.set(y * used);
+  y_.high.set(y * used);
 }
 
 void CameraFitter::add(std::span<const Sphere> spheres, const ParallelFor& parallel_for) {
@@ -61,9 +62,9 @@ void CameraFitter::add(std::span<const Sphere> spheres, const ParallelFor& paral
 
 void CameraFitter::add(const Sphere& s) {
   const auto narrow = [](Sides& sides, double across, double depth, double radius) {
-    const double inward = depth * sides.sine - radius;
-    sides.low = std::min(sides.low, inward + across * sides.cosine);
-    sides.high = std::min(sides.high, inward - across * sides.cosine);
+    const auto& [low, high] = sides;
+    sides.low.narrow(depth * low.sine - radius + across * low.cosine);
+    sides.high.narrow(depth * high.sine - radius - across * high.cosine);
   };
   const Vec3d center = vec_cast<double>(s.center);
   const auto radius = static_cast<double>(s.radius);
@@ -79,8 +80,8 @@ void CameraFitter::add(const Sphere& s) {
 /// Adds what a fitter for the same frame was given.
 void CameraFitter::add(const CameraFitter& other) {
   const auto narrow = [](Sides& sides, const Sides& others) {
-    sides.low = std::min(sides.low, others.low);
-    sides.high = std::min(sides.high, others.high);
+    sides.low.narrow(others.low.room);
+    sides.high.narrow(others.high.room);
   };
   narrow(x_, other.x_);
   narrow(y_, other.y_);
@@ -92,8 +93,8 @@ void CameraFitter::add(const CameraFitter& other) {
 std::vector<SphereMeasure> CameraFitter::measures() const {
   std::vector<SphereMeasure> all{{forward_, 1}, {forward_ * -1.0, 1}, {{0, 0, 0}, 1}};
   const auto add_sides = [&](const Sides& sides, const Vec3d& across) {
-    all.push_back({forward_ * sides.sine + across * sides.cosine, 1});
-    all.push_back({forward_ * sides.sine - across * sides.cosine, 1});
+    all.push_back({forward_ * sides.low.sine + across * sides.low.cosine, 1});
+    all.push_back({forward_ * sides.high.sine - across * sides.high.cosine, 1});
   };
   add_sides(x_, right_);
   add_sides(y_, up_);
@@ -118,34 +119,43 @@ CameraPose CameraFitter::pose_at(double x, double y, double depth) const {
 
 /// A sphere is inside of a side where its distance from the plane is its radius at least. With the
 /// eye at (x, depth) the two sides of an axis ask for
-///   depth sine + x cosine <= low and depth sine - x cosine <= high,
-/// so the greatest depth of the eye is (low + high) / (2 sine), at x = (low - high) / (2 cosine).
-/// On the axis that asks for less than the other, that x leaves equal room on both sides.
+///   depth sine + x cosine <= room of the low one and depth sine - x cosine <= room of the high
+///   one.
+/// Divided by the cosines, their sum gives the greatest depth of the eye, and their difference the
+/// x in the middle of those that both allow, at any depth.
 Camera CameraFitter::pinhole() const {
   const auto greatest_depth = [](const Sides& sides, double guard) {
-    return (sides.low + sides.high - 2 * guard) / (2 * sides.sine);
+    const auto& [low, high] = sides;
+    return ((low.room - guard) / low.cosine + (high.room - guard) / high.cosine) /
+           (low.sine / low.cosine + high.sine / high.cosine);
   };
   const auto depth_for = [&](double guard) {
     return std::min(greatest_depth(x_, guard), greatest_depth(y_, guard));
   };
-  const auto middle = [](const Sides& sides) {
-    return (sides.low - sides.high) / (2 * sides.cosine);
+  const auto middle = [](const Sides& sides, double at) {
+    const auto& [low, high] = sides;
+    return ((low.room - at * low.sine) / low.cosine - (high.room - at * high.sine) / high.cosine) /
+           2;
   };
   const double guard = (largest_ + middle_depth() - depth_for(0)) * relative_guard;
   const double depth = std::min(depth_for(guard), middle_depth() - largest_ * least_distance);
-  return PinholeCamera{pose_at(middle(x_), middle(y_), depth), fit_.fov,
+  return PinholeCamera{pose_at(middle(x_, depth), middle(y_, depth), depth), fit_.fov,
                        axis_of(fit_, width_, height_)};
 }
 
-/// The film is as high and wide as the spheres; the eye stands twice its height before the first.
+/// The film is as high and wide as the spheres and what is left free; the eye stands twice its
+/// height before the first.
 Camera CameraFitter::orthographic() const {
   const double guard = largest_ * relative_guard;
-  const auto extent = [guard](const Sides& sides) { return 2 * guard - sides.low - sides.high; };
-  const auto middle = [](const Sides& sides) { return (sides.low - sides.high) / 2; };
+  const auto extent = [guard](const Sides& sides) {
+    return 2 * guard - sides.low.room - sides.high.room;
+  };
+  const auto middle = [](const Sides& sides) { return (sides.low.room - sides.high.room) / 2; };
   const double aspect = static_cast<double>(width_) / height_;
-  const double used = 1 - 2 * double{fit_.margin};
-  const double height = std::max(extent(y_), extent(x_) / aspect) / used;
-  return OrthographicCamera{pose_at(middle(x_), middle(y_), nearest_ - 2 * height),
+  const double used = 1 - 2 * double{fit_.margin}, room{fit_.room};
+  const double height = std::max(extent(y_) / used, extent(x_) / aspect / (used - room));
+  const double aside = middle(x_) + height * aspect * room / 2;
+  return OrthographicCamera{pose_at(aside, middle(y_), nearest_ - 2 * height),
                             static_cast<float>(height)};
 }
 

@@ -33,13 +33,19 @@ class CameraFitter {
   [[nodiscard]] Camera camera() const;
 
  private:
-  /// Two opposite sides of the frame are planes: of a pinhole they meet in its eye, of an
-  /// orthographic camera they are parallel. `low` and `high` are the least distances of a sphere's
-  /// surface from the planes as they would lie with the eye at the origin.
+  /// A side of the frame is a plane: of a pinhole all meet in its eye, of an orthographic camera
+  /// opposite ones are parallel.
+  struct Side {
+    double sine = 0, cosine = 1;  ///< of its angle with the view
+    /// The least distance of a sphere's surface from it as it would lie with the eye at the origin.
+    double room = std::numeric_limits<double>::infinity();
+
+    void set(double tangent);
+    void narrow(double inward) { room = inward < room ? inward : room; }
+  };
+  /// Two opposite ones: at the left or lower end, and at the right or upper end.
   struct Sides {
-    double sine = 0, cosine = 1;                           ///< of half the angle between the planes
-    double low = std::numeric_limits<double>::infinity();  ///< from the left or the lower one
-    double high = std::numeric_limits<double>::infinity();  ///< from the right or the upper one
+    Side low, high;
   };
 
   void add(const Sphere& sphere);

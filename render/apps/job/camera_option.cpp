@@ -9,14 +9,15 @@
 namespace boule {
 
 /// The keys are read as those of a scene that has nothing else.
-Status use_camera(const std::string& keys, std::optional<int> frame, LoadedScene& loaded) {
+Status use_camera(const std::string& keys, const SceneFileOptions& series, LoadedScene& loaded) {
   if (keys.empty()) return {};
   const Vec3d& origin = loaded.origin;
   const std::string shown_path = "the camera of the command line";
   const std::string text = fmt::format("schema = 1\norigin = [{}, {}, {}]\ncamera = {{{}}}\n",
                                        origin.x + 0.0, origin.y + 0.0, origin.z + 0.0, keys);
   SceneFileOptions options;
-  options.frame = frame;
+  options.frame = series.frame;
+  options.between = series.between;
   auto read = load_scene_text(text, shown_path, options);
   if (!read) {
     const Diagnostic& error = read.error();

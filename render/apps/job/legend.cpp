@@ -31,7 +31,6 @@ class Legend {
  public:
   void add_scale(const ParticleColors::Scale& scale);
   void add_species(const std::vector<ParticleColors::Species>& all);
-  [[nodiscard]] bool empty() const { return parts_.empty(); }
   [[nodiscard]] std::string svg() const;
 
  private:
@@ -62,7 +61,7 @@ void Legend::add_ticks(double left, double top, double low, double high) {
 void Legend::add_scale(const ParticleColors::Scale& scale) {
   constexpr int stops = 64;
   const double low = scale.range[0], high = scale.range[1];
-  add_text(border, height_ + text_size / 2, scale.by);
+  add_text(border, height_ + text_size / 2, legend_title(scale));
   const double top = height_ + text_size + 10;
   parts_ += fmt::format("<linearGradient id=\"map{}\" x1=\"0\" y1=\"1\" x2=\"0\" y2=\"0\">\n",
                         gradients_);
@@ -151,6 +150,10 @@ std::vector<ParticleColors::Species> legend_rows(const ParticleColors& colors) {
   return rows;
 }
 
+std::string legend_title(const ParticleColors::Scale& scale) {
+  return scale.unit.empty() ? scale.by : scale.by + " (" + scale.unit + ")";
+}
+
 std::string xml_text(const std::string& text) {
   std::string safe;
   for (const char c : text) {
@@ -167,13 +170,26 @@ std::string xml_text(const std::string& text) {
   return safe;
 }
 
+bool has_legend(const std::vector<ParticleColors>& colors) {
+  return std::any_of(colors.begin(), colors.end(), [](const ParticleColors& one) {
+    return one.scale.has_value() || !one.species.empty();
+  });
+}
+
+std::vector<ParticleColors> colors_of(const std::vector<ParticleFacts>& particles) {
+  std::vector<ParticleColors> colors;
+  for (const ParticleFacts& one : particles) colors.push_back(one.colors);
+  return colors;
+}
+
 std::string legend_svg(const std::vector<ParticleColors>& colors) {
+  if (!has_legend(colors)) return {};
   Legend legend;
   for (const ParticleColors& one : colors) {
     if (one.scale) legend.add_scale(*one.scale);
     if (const auto rows = legend_rows(one); !rows.empty()) legend.add_species(rows);
   }
-  return legend.empty() ? std::string() : legend.svg();
+  return legend.svg();
 }
 
 }  // namespace boule

@@ -76,7 +76,7 @@ inline auto file_and_view_choices() {
   };
 }
 
-inline auto sphere_and_color_choices() {
+inline auto sphere_choices() {
   using L = LookOptions;
   using namespace heading;
   constexpr const char* above_0 = "a number above 0";
@@ -92,6 +92,12 @@ inline auto sphere_and_color_choices() {
       choice<L>(spheres, "select", &L::select,
                 TextRule{parse_words, "such as \"type == 1 && x > 0\""}, "EXPR",
                 "Which particles are shown, such as \"type == 1 && x > 0\" (all)"),
+      choice<L>(spheres, "labels", &L::labels, TextRule{parse_words, "such as \"name == 'CA'\""},
+                "EXPR",
+                "Which particles have a text on the picture, such as \"name == 'CA'\" (none)"),
+      choice<L>(spheres, "label_text", &L::label_text,
+                TextRule{parse_names, "names of columns such as resname,resid"}, "NAMES",
+                "Columns of that text, such as resname,resid (name, else species, else a number)"),
       choice<L>(spheres, "wrap", &L::wrap, FlagRule{}, "",
                 "Move particles into the cell, along its periodic edges"),
       choice<L>(spheres, "unwrap", &L::unwrap, FlagRule{}, "",
@@ -101,6 +107,13 @@ inline auto sphere_and_color_choices() {
       choice<L>(spheres, "replicate", &L::replicate,
                 TextRule{parse_replicate, "AxBxC, whole numbers from 1 on, such as 2x2x1", 'x'},
                 "AxBxC", "Periodic images along the edges of the cell (1x1x1)"),
+  };
+}
+
+inline auto color_choices() {
+  using L = LookOptions;
+  using namespace heading;
+  return std::tuple{
       choice<L>(
           colors, "color", &L::color,
           TextRule{parse_particle_color, "element, a colour or a column"}, "C",
@@ -160,8 +173,8 @@ inline auto bond_choices() {
 
 /// The options of LookOptions, in the order of the help.
 inline auto look_choices() {
-  return std::tuple_cat(detail::file_and_view_choices(), detail::sphere_and_color_choices(),
-                        detail::bond_choices());
+  return std::tuple_cat(detail::file_and_view_choices(), detail::sphere_choices(),
+                        detail::color_choices(), detail::bond_choices());
 }
 
 }  // namespace boule

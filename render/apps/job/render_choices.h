@@ -96,11 +96,11 @@ inline auto picture_choices() {
                 "Dark lines where what is seen changes, W pixels wide, or points as in 0.5pt (0; "
                 "printed at least 0.35pt where the scene has some)"),
       choice<J>(picture, "overlay", &J::overlay,
-                TextRule{parse_overlay, "some of " + list_overlay_parts() + ", each once", ',',
-                         hint_overlay},
+                TextRule{parse_overlay, "none, or some of " + list_overlay_parts() + ", each once",
+                         ',', hint_overlay},
                 "PARTS",
                 "Drawn on the picture, of 8 bits, or as vectors in PDF and SVG: any of " +
-                    list_overlay_parts()),
+                    list_overlay_parts() + ", or none"),
       choice<J>(picture, "seed", &J::seed,
                 TextRule{parse_seed, "a whole number from 0 to 18446744073709551615"}, "N",
                 "Seed of the random numbers (0)", &O::seed),

@@ -68,6 +68,10 @@ RenderOptions options_of(const RenderJob& job, const Scene& scene) {
   return options;
 }
 
+OverlayParts overlay_of(const RenderJob& job, const Scene& scene) {
+  return job.overlay.value_or(scene.image.overlay);
+}
+
 void choose_background(const std::optional<BackgroundChoice>& choice, Scene& scene) {
   if (!choice) return;
   scene.image.transparent = !choice->color;

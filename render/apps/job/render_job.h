@@ -74,6 +74,9 @@ inline constexpr int max_threads = 1024;
 /// A picture to be rendered, or a series of them. What is not chosen comes from the scene.
 struct RenderJob : SceneJob {
   std::optional<FrameRange> frames{};
+  /// Pictures from frame to frame of a series, whose frames are then numbers of pictures: picture n
+  /// is at frame n / interpolate.
+  int interpolate = 1;
   std::optional<int> turn{};  ///< the frames are so many pictures of one scene that turns once
   std::string camera{};       ///< keys of [camera]; empty: the scene's
   std::optional<Size> size{};
@@ -86,7 +89,7 @@ struct RenderJob : SceneJob {
   std::optional<PixelFilter> filter{};
   std::optional<BackgroundChoice> background{};
   std::optional<OutlineWidth> outline{};
-  OverlayParts overlay{};  ///< drawn on the finished picture
+  std::optional<OverlayParts> overlay{};  ///< drawn on the finished picture
   std::uint64_t seed = 0;
   std::optional<PixelRect> crop{};
   AovSelection aovs{};
@@ -106,6 +109,9 @@ SizeChoice size_choice(const RenderJob& job);
 
 /// The options of the rendering that the job asks for, of this scene.
 RenderOptions options_of(const RenderJob& job, const Scene& scene);
+
+/// What is to be drawn on the picture of this scene.
+OverlayParts overlay_of(const RenderJob& job, const Scene& scene);
 
 /// Puts the choice of a background, if there is one, into the scene.
 void choose_background(const std::optional<BackgroundChoice>& choice, Scene& scene);

@@ -6,6 +6,7 @@
 
 #include "core/scene/instances.h"
 #include "render/apps/job/camera_option.h"
+#include "render/apps/job/overlay/legend_room.h"
 #include "render/apps/job/particle_scene.h"
 #include "render/files/particle_file/particle_file.h"
 #include "render/files/scene_file/loaded/frame_name.h"
@@ -28,8 +29,10 @@ SceneLoader::SceneLoader(const RenderJob& job, ParticleFileCache* files, std::ui
       look_(job.look),
       camera_keys_(job.camera),
       frames_(!job.turn && job.frames && job.frames->count() > 1 ? job.frames : std::nullopt),
+      interpolate_(job.interpolate),
       turn_(job.turn),
       size_(size_choice(job)),
+      overlay_(job.overlay),
       most_(most),
       scheduler_(job.threads) {
   options_.polygons = job.polygons;
@@ -82,9 +85,16 @@ Result<LoadedScene> SceneLoader::load_turned(int step) {
   return loaded;
 }
 
+/// The pictures of a series that show frames of its files.
+FrameRange SceneLoader::whole_frames() const {
+  FrameRange frames = *frames_;
+  frames.step *= interpolate_;
+  return frames;
+}
+
 /// Makes the choices of a series, and returns its first frame as it is with them.
 Result<LoadedScene> SceneLoader::choose_for_series() {
-  const auto count = static_cast<std::size_t>(frames_->count());
+  const auto count = static_cast<std::size_t>(whole_frames().count());
   std::vector<int> frames;
   SeriesSurvey survey(size_);
   {
@@ -95,7 +105,7 @@ Result<LoadedScene> SceneLoader::choose_for_series() {
       keep_colors(first.value());
       return first;
     }
-    frames = surveyed_frames(*frames_, spheres, most_);
+    frames = surveyed_frames(whole_frames(), spheres, most_);
     // If it shows some, its origin is that of all.
     if (shows_particles(first.value())) survey.add(frames_->first, first.value(), choices_.floor);
   }
@@ -122,7 +132,7 @@ std::uint64_t SceneLoader::find_shown(const LoadedScene& first) {
   choices_.origin = first.origin;
   if (shows_particles(first)) return spheres;
   choices_.origin.reset();
-  for (const int number : surveyed_frames(*frames_, spheres, most_)) {
+  for (const int number : surveyed_frames(whole_frames(), spheres, most_)) {
     const auto other = read(number);
     if (!other) break;
     if (!shows_particles(other.value())) continue;
@@ -138,11 +148,16 @@ std::uint64_t SceneLoader::find_shown(const LoadedScene& first) {
 Result<LoadedScene> SceneLoader::read(std::optional<int> frame) {
   auto loaded = read_file(frame);
   if (!loaded) return loaded;
-  if (auto done = use_camera(camera_keys_, frame, loaded.value()); !done) return done.error();
+  if (auto done = use_camera(camera_keys_, options_, loaded.value()); !done) return done.error();
+  leave_legend_room(overlay_, size_, loaded.value());
   return loaded;
 }
 
 Result<LoadedScene> SceneLoader::read_file(std::optional<int> frame) {
+  if (frame) {
+    options_.between = static_cast<double>(*frame % interpolate_) / interpolate_;
+    frame = *frame / interpolate_;
+  }
   options_.frame = frame;
   options_.origin = choices_.origin;
   options_.choices = choices_.particles;
@@ -187,7 +202,7 @@ void SceneLoader::keep_floor_and_camera(const SeriesSurvey& survey, std::size_t 
   }
   choices_.camera = survey.camera();
   if (!choices_.camera || survey.size() < frames) return;
-  const auto count = static_cast<std::size_t>(frames_->count());
+  const auto count = static_cast<std::size_t>(whole_frames().count());
   choices_.notes.push_back("the camera is fitted to " + survey.text(count));
 }
 

@@ -70,6 +70,7 @@ class SceneLoader {
   Result<LoadedScene> read(std::optional<int> frame);
   Result<LoadedScene> read_file(std::optional<int> frame);
   Result<LoadedScene> choose_for_series();
+  [[nodiscard]] FrameRange whole_frames() const;
   [[nodiscard]] std::uint64_t find_shown(const LoadedScene& first);
   [[nodiscard]] bool needs_others(const LoadedScene& first) const;
   SeriesSurvey look_at(const std::vector<int>& frames, SeriesSurvey survey);
@@ -81,8 +82,10 @@ class SceneLoader {
   LookOptions look_;
   const std::string camera_keys_;
   const std::optional<FrameRange> frames_;  ///< of a series of two frames or more
+  const int interpolate_;
   const std::optional<int> turn_;
   const SizeChoice size_;
+  const std::optional<OverlayParts> overlay_;
   const std::uint64_t most_;
   Scheduler scheduler_;
   ParticleFileCache own_files_;

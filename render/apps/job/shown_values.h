@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "core/math/color.h"
 #include "core/math/srgb.h"
@@ -29,5 +30,11 @@ inline Json shown(const std::string& name) { return name; }
 /// An enumerator by its name.
 template <class Enum>
 requires std::is_enum_v<Enum> Json shown(Enum value) { return name_of(value); }
+template <class Enum>
+requires std::is_enum_v<Enum> Json shown(const std::vector<Enum>& some) {
+  Json list = Json::array();
+  for (const Enum one : some) list.push_back(name_of(one));
+  return list;
+}
 
 }  // namespace boule

@@ -2,6 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "render/files/particles/elements.h"
 
 namespace boule {
 namespace {
@@ -101,14 +106,40 @@ constexpr std::array<IonicRadius, 90> ions{{
     // clang-format on
 }};
 
+/// Null where there is none.
+const IonicRadius* find_ion(std::string_view symbol) {
+  const auto found = std::find_if(ions.begin(), ions.end(),
+                                  [&](const IonicRadius& ion) { return ion.symbol == symbol; });
+  return found == ions.end() ? nullptr : &*found;
+}
+
 }  // namespace
 
 std::span<const IonicRadius> all_ionic_radii() { return ions; }
 
 double ionic_radius(std::string_view symbol) {
-  const auto found = std::find_if(ions.begin(), ions.end(),
-                                  [&](const IonicRadius& ion) { return ion.symbol == symbol; });
-  return found == ions.end() ? 0 : found->radius;
+  const IonicRadius* const ion = find_ion(symbol);
+  return ion == nullptr ? 0 : ion->radius;
+}
+
+bool is_salt(const ParticleFrame& frame) {
+  constexpr std::array<std::string_view, 5> anions{"O", "F", "Cl", "Br", "I"};
+  constexpr double least = 0.5;  // a smaller ion is hidden among oxygens, as silicon is
+  if (!frame.cell || frame.cell->periodic != std::array{true, true, true}) return false;
+  if (!frame.species || frame.size() == 0) return false;
+  std::vector<std::size_t> counts(frame.species->texts.size());
+  for (const std::uint32_t i : frame.species->indices) ++counts[i];
+  std::size_t of_anions = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (counts[i] == 0) continue;
+    const Element* const element = find_element(frame.species->texts[i]);
+    const IonicRadius* const ion = element == nullptr ? nullptr : find_ion(element->symbol);
+    if (ion == nullptr) return false;
+    const bool is_anion = std::count(anions.begin(), anions.end(), ion->symbol) > 0;
+    if (!is_anion && (ion->charge < 0 || ion->radius < least)) return false;
+    if (is_anion) of_anions += counts[i];
+  }
+  return 10 * of_anions >= 3 * frame.size();
 }
 
 }  // namespace boule

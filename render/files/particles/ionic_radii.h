@@ -3,6 +3,8 @@
 #include <span>
 #include <string_view>
 
+#include "render/files/particle_file/frame/particle_frame.h"
+
 namespace boule {
 
 /// The effective ionic radius of an element, in angstrom: R. D. Shannon, Acta Cryst. A32, 751,
@@ -20,5 +22,10 @@ std::span<const IonicRadius> all_ionic_radii();
 
 /// 0 where there is none.
 double ionic_radius(std::string_view symbol);
+
+/// Whether a frame shows a salt or an oxide: in a cell that is periodic along all three edges,
+/// three in ten particles or more are O, F, Cl, Br or I, and all others are elements whose ion is
+/// positive and has at least 0.5 angstrom.
+bool is_salt(const ParticleFrame& frame);
 
 }  // namespace boule

@@ -66,14 +66,16 @@ void add_kinds(const std::vector<ParticleColors::Species>& more,
 void ParticleChoices::add(const ParticleChoices& frame) {
   if (frame.particles > 0 || frame.distance) {
     const bool is_first = particles == 0 && !distance;
-    const bool same =
-        frame.distance == distance && frame.most_are_elements() == most_are_elements() &&
-        frame.starts_bonded == starts_bonded && frame.smallest_radius == smallest_radius;
+    const bool same = frame.distance == distance &&
+                      frame.most_are_elements() == most_are_elements() &&
+                      frame.are_ionic == are_ionic && frame.starts_bonded == starts_bonded &&
+                      frame.smallest_radius == smallest_radius;
     radii_differ = radii_differ || (!is_first && !same);
   }
   elements += frame.elements;
   particles += frame.particles;
   if (frame.distance) distance = std::min(distance.value_or(*frame.distance), *frame.distance);
+  if (frame.are_ionic) are_ionic = are_ionic.value_or(true) && *frame.are_ionic;
   if (frame.starts_bonded) {
     starts_bonded = starts_bonded.value_or(true) && *frame.starts_bonded;
   }

@@ -21,6 +21,9 @@ std::size_t most_kinds(const std::string& column);
 struct ParticleChoices {
   /// Those that are elements, of the particles: whether radii are van der Waals'.
   std::size_t elements = 0, particles = 0;
+  /// Whether all make a salt or an oxide (is_salt()), whose radii are ionic where nobody says it;
+  /// in a series, whether all frames with particles are such.
+  std::optional<bool> are_ionic{};
   /// The typical distance to the nearest neighbour, in a series the smallest; none where radii do
   /// not need it, or no two particles differ.
   std::optional<double> distance{};

@@ -35,9 +35,10 @@ double table_radius(RadiusTable table, const std::string& species) {
 /// Decides rules for one frame.
 class Decision {
  public:
-  Decision(const ParticleFrame& frame, const ParticleStyle& style, ParticleChoices& own,
-           const ParallelFor& parallel_for)
+  Decision(const ParticleFrame& frame, const ParticleStyle& style, ParticleShape shape,
+           ParticleChoices& own, const ParallelFor& parallel_for)
       : frame_(frame),
+        shape_(shape),
         given_(style.radii),
         chosen_(style.chosen),
         own_(own),
@@ -72,7 +73,14 @@ class Decision {
     if (find_number_column(frame_, "radius") != nullptr) return from_column("radius", 1);
     if (find_number_column(frame_, "diameter") != nullptr) return from_column("diameter", 0.5);
     count_elements();
-    if ((chosen_ != nullptr ? *chosen_ : own_).most_are_elements()) {
+    const ParticleChoices& chosen = chosen_ != nullptr ? *chosen_ : own_;
+    if (chosen.are_ionic.value_or(false) && shape_ == ParticleShape::space_filling) {
+      RadiusSource source = from_table(RadiusTable::ionic);
+      source.notes.push_back("the radii are " + source.text +
+                             ", as of salts and oxides (\"vdw\" for van der Waals radii)");
+      return source;
+    }
+    if (chosen.most_are_elements()) {
       RadiusSource source = from_table(RadiusTable::vdw);
       source.notes.push_back("the radii are " + source.text);
       return source;
@@ -144,6 +152,7 @@ class Decision {
   /// Some may be none: the fourth point of water molecules, for instance.
   void count_elements() const {
     own_.particles = frame_.size();
+    if (frame_.size() > 0) own_.are_ionic = is_salt(frame_);
     if (!frame_.species) return;
     std::vector<bool> is_element;
     for (const std::string& text : frame_.species->texts) {
@@ -170,6 +179,7 @@ class Decision {
   }
 
   const ParticleFrame& frame_;
+  const ParticleShape shape_;
   const std::vector<KindRadius>& given_;
   const ParticleChoices* chosen_;
   ParticleChoices& own_;
@@ -267,8 +277,9 @@ std::vector<float> radii_of_species(const std::vector<double>& by_species, doubl
 }  // namespace
 
 Result<RadiusSource> find_radius_source(const ParticleFrame& frame, const ParticleStyle& style,
-                                        ParticleChoices& own, const ParallelFor& parallel_for) {
-  auto source = std::visit(Decision(frame, style, own, parallel_for), style.radius);
+                                        ParticleShape shape, ParticleChoices& own,
+                                        const ParallelFor& parallel_for) {
+  auto source = std::visit(Decision(frame, style, shape, own, parallel_for), style.radius);
   if (!source || style.radii.empty()) return source;
   if (auto done = use_given(frame, style, source.value()); !done) return done.error();
   return source;

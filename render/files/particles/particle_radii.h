@@ -23,12 +23,13 @@ struct RadiusSource {
   std::vector<std::string> notes;
 };
 
-/// Decides the rule of a style, and the radii that it gives for species. The typical distance is
-/// that of all particles of the frame, or what `style.chosen` has if it is not null; `own` gets
-/// what the frame by itself has for that. An error, about "radius" or "radii", if there is no such
-/// column or species or, for tables, no species at all.
+/// Decides the rule of a style for particles that are drawn as `shape`, and the radii that it gives
+/// for species. The typical distance is that of all particles of the frame, or what `style.chosen`
+/// has if it is not null; `own` gets what the frame by itself has for that. An error, about
+/// "radius" or "radii", if there is no such column or species or, for tables, no species at all.
 Result<RadiusSource> find_radius_source(const ParticleFrame& frame, const ParticleStyle& style,
-                                        ParticleChoices& own, const ParallelFor& parallel_for);
+                                        ParticleShape shape, ParticleChoices& own,
+                                        const ParallelFor& parallel_for);
 
 /// The radii of a frame's particles.
 struct ParticleRadii {

@@ -211,9 +211,9 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   const std::size_t count = frame.size();
   if (auto done = check_style(style); !done) return done.error();
   if (auto done = check_cell(frame, style, frame.notes); !done) return done.error();
-  auto source = find_radius_source(frame, style, made.own_, parallel_for);
   const auto plan = plan_bonds(frame, style, made.own_);
   if (!plan) return plan.error();
+  auto source = find_radius_source(frame, style, plan.value().shape, made.own_, parallel_for);
   // A frame without particles may lack the columns that the others of its series have.
   if (!source && count == 0) source = RadiusSource{.all = 1};
   if (!source) return source.error();
@@ -241,6 +241,9 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   if (auto done = made.find_bounds(style, parallel_for); !done) return done.error();
   if (auto done = made.add_arrows(style); !done) return done.error();
   made.add_axes(style);
+  auto labels = find_labels(frame, style.labels, made.radii_, parallel_for);
+  if (!labels) return labels.error();
+  made.labels_ = std::move(labels).value();
   made.colors_ = std::move(materials.value().colors);
   made.radius_source_ = std::move(source.value().text);
   append(frame.notes, std::move(source.value().notes));

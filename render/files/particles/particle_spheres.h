@@ -20,6 +20,7 @@
 #include "render/files/particles/cell_images.h"
 #include "render/files/particles/colors/color_meaning.h"
 #include "render/files/particles/particle_choices.h"
+#include "render/files/particles/particle_labels.h"
 #include "render/files/particles/particle_style.h"
 #include "render/files/particles/particle_values.h"
 
@@ -31,10 +32,10 @@ class ParticleSpheres {
  public:
   /// Errors have a message and, as their key, the key of [[particles]] that is at fault ("file",
   /// "select", "radius", "scale", "color", "color.by", "color.range", "material", "wrap",
-  /// "unwrap", "boundary", "replicate"): an unknown column (with the one that was meant, if any), a
-  /// radius that is not above 0 or not finite with its particle (from 1, in the order of the
-  /// frame), no cell to wrap into, more spheres than there is memory for or than ids allow. Throws
-  /// std::bad_alloc. The same for any threads.
+  /// "unwrap", "boundary", "replicate", "labels", "label_text"): an unknown column (with the one
+  /// that was meant, if any), a radius that is not above 0 or not finite with its particle (from 1,
+  /// in the order of the frame), no cell to wrap into, more spheres than there is memory for or
+  /// than ids allow. Throws std::bad_alloc. The same for any threads.
   static Result<ParticleSpheres> make(ParticleFrame read, const ParticleStyle& style,
                                       const ParallelFor& parallel_for = serial_for);
 
@@ -79,6 +80,8 @@ class ParticleSpheres {
   void append_lines_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
   /// Bonds of the particles, those of images not among them.
   [[nodiscard]] std::size_t bonds() const { return bonds_.size(); }
+
+  [[nodiscard]] const std::vector<ParticleLabel>& labels() const { return labels_; }
 
   /// Whether there are so many images that they had better be instances of the first one.
   [[nodiscard]] bool shares_images(std::uint64_t fewest_spheres = fewest_shared) const;
@@ -128,6 +131,7 @@ class ParticleSpheres {
   std::optional<BondLook> edge_look_;  ///< if the edges of the cell are drawn
   std::optional<AxesLook> axes_;       ///< if they are drawn
   std::vector<Vec3d> arrows_;          ///< of each particle; empty: none
+  std::vector<ParticleLabel> labels_;
   std::array<Vec3d, 2> bounds_{};
   double smallest_radius_ = 0;
   ParticleColors colors_;

@@ -62,6 +62,8 @@ std::vector<std::string> columns_of(const ParticleStyle& style) {
   add_radius_columns(style.radius, names);
   add_color_columns(style.color, names);
   add_select_columns(style.select, names);
+  add_select_columns(style.labels.select, names);
+  add_label_columns(style.labels, names);
   if (style.arrows) add_arrow_columns(style.arrows->names, names);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());

@@ -12,6 +12,7 @@
 #include "render/files/particles/colors/color_map.h"
 #include "render/files/particles/colors/given_kinds.h"
 #include "render/files/particles/particle_choices.h"
+#include "render/files/particles/particle_labels.h"
 
 namespace boule {
 
@@ -116,6 +117,7 @@ struct ParticleStyle {
   std::optional<ArrowColumns> arrows{};
   /// Which particles: "type == 1 && x > 0", 'species == "Fe"' (SelectExpression); empty: all.
   std::string select{};
+  LabelRule labels{};     ///< of those that are shown
   bool wrap = false;      ///< into the cell, along its periodic directions
   bool unwrap = false;    ///< what is bonded through a face is moved together
   bool boundary = false;  ///< with the images of particles on faces that are on opposite faces

@@ -108,6 +108,23 @@ TEST(CameraFitter, LeavesTheMarginOnTheTighterAxis) {
   }
 }
 
+TEST(CameraFitter, LeavesRoomAtTheRight) {
+  for (CameraFit fit : fits) {
+    if (fit.margin > 0.1F) fit.margin = 0.1F;
+    fit.room = 0.25F;
+    for (const Size size : sizes) {
+      const auto spheres = cloud(7, 50);
+      const Room room = room_of(spheres, fitted(fit, spheres, size), size);
+      const double margin = 2 * double{fit.margin}, right = margin + 0.5, rounding = 1e-4;
+      EXPECT_GE(room.left, margin);
+      EXPECT_GE(room.right, right);
+      const bool x_is_full = room.left < margin + rounding && room.right < right + rounding;
+      const bool y_is_full = room.below < margin + rounding && room.above < margin + rounding;
+      EXPECT_TRUE(x_is_full || y_is_full);
+    }
+  }
+}
+
 TEST(CameraFitter, RollTurnsThePicture) {
   const std::vector<Sphere> spheres = cloud(3, 10);
   const CameraFit fit{.direction = Vec3f{0, 0, -1}, .up = Vec3f{0, 1, 0}};
@@ -235,6 +252,8 @@ TEST(CameraFit, ErrorsCoverFieldsAndTheWhole) {
   EXPECT_EQ(find_problem(CameraFit{.fov = 180})->field, "fov");
   EXPECT_EQ(find_problem(CameraFit{.margin = 0.5F})->field, "margin");
   EXPECT_EQ(find_problem(CameraFit{.margin = -0.1F})->field, "margin");
+  EXPECT_EQ(find_problem(CameraFit{.room = 0.5F})->field, "room");
+  EXPECT_EQ(find_problem(CameraFit{.margin = 0.3F, .room = 0.4F})->field, "room");
   const CameraFit along{.direction = Vec3f{0, 2, 0}, .up = Vec3f{0, -1, 0}};
   EXPECT_EQ(find_problem(along)->field, "up");
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <ctime>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -212,6 +213,21 @@ ExitCode run_as_rank(Team& team, const RenderCommand& command) {
   return code;
 }
 
+/// With --interpolate N the numbers of a series are those of pictures, N from frame to frame.
+Status count_pictures(RenderCommand& command) {
+  const int pictures = command.interpolate;
+  if (pictures == 1) return {};
+  const auto refuse = [](const char* why) { return wrong_option(why, "--interpolate"); };
+  if (command.turn) return refuse("is of frames of particles, not of --turn");
+  if (!command.frames) return refuse("is of a series: --frames is missing, or a movie");
+  FrameRange& frames = *command.frames;
+  if (frames.step != 1) return refuse("needs all frames, --frames without a step");
+  constexpr int most = std::numeric_limits<int>::max();
+  if (frames.last > most / pictures) return refuse("makes too many pictures");
+  frames = {frames.first * pictures, frames.last * pictures};
+  return {};
+}
+
 /// The frames of a movie: those that are asked for, or all of a trajectory.
 Result<FrameRange> movie_frames(const RenderCommand& command) {
   const Diagnostic none =
@@ -233,6 +249,7 @@ ExitCode run_movie(RenderCommand command) {
   const auto frames = movie_frames(command);
   if (!frames) return report(frames.error(), code_of_loading(frames.error()));
   command.frames = frames.value();
+  if (auto done = count_pictures(command); !done) return report(done.error(), wrong_usage);
   constexpr double usual_fps = 25;
   auto movie = Movie::start(command.output, command.fps.value_or(usual_fps));
   if (!movie) return report(movie.error(), failed);
@@ -252,14 +269,17 @@ ExitCode run(const RenderCommand& given) {
     return report(wrong_option("makes a series of its own, without --frames", "--turn"),
                   wrong_usage);
   if (command.turn) command.frames = FrameRange{0, *command.turn - 1};
+  const bool is_movie = is_movie_name(command.output);
+  if (auto done = is_movie ? Status() : count_pictures(command); !done)
+    return report(done.error(), wrong_usage);
   if (auto done = check_copies(command); !done) return report(done.error(), wrong_usage);
-  if (command.fps && !is_movie_name(command.output))
+  if (command.fps && !is_movie)
     return report(wrong_option("is of movies: " + joined(movie_endings, ", "), "--fps"),
                   wrong_usage);
   const auto team = join_team(command);
   if (!team) return report(team.error(), failed);
   if (team.value()) return run_as_rank(*team.value(), command);
-  return is_movie_name(command.output) ? run_movie(std::move(command)) : run_in(nullptr, command);
+  return is_movie ? run_movie(std::move(command)) : run_in(nullptr, command);
 }
 
 }  // namespace boule::cli

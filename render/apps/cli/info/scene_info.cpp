@@ -52,7 +52,7 @@ Json materials_info(const Scene& scene) {
 /// A value on one line: numbers with spaces between them, members with commas, what has members
 /// itself with semicolons.
 std::string inline_text(const Json& value) {
-  if (value.is_null()) return "none";
+  if (value.empty()) return "none";
   if (value.is_string()) return value.get<std::string>();
   if (!value.is_structured()) return value.dump();
   std::string text;

@@ -74,6 +74,9 @@ void add_work_options(CLI::App& app, RenderCommand& command) {
   start_group(app, heading::work);
   add_frames(app, command.frames,
              "Render a series: #### in the names of scene, data and output is the frame's number");
+  add_whole(
+      app, "--interpolate", command.interpolate, 2, 1000,
+      "Render N pictures from frame to frame of a series of particles, which move in between");
   add_whole(app, "--turn", command.turn, 2, 100'000,
             "Render a turntable: N pictures of one scene, which turns once; #### in the output's "
             "name is the number, from 0");

@@ -59,7 +59,7 @@ RenderCommand command_of_frame(const RenderCommand& command, int frame) {
   RenderCommand one = command;
   one.frame = frame;
   if (one.claim) one.skip_existing = true;  // another process may have made it a moment ago
-  one.scene = frame_name(command.scene, frame);
+  one.scene = frame_name(command.scene, frame / command.interpolate);
   one.output = frame_name(command.output, frame);
   one.stats.file = frame_name(command.stats.file, frame);
   if (one.preview) one.preview->file = frame_name(command.preview->file, frame);

@@ -31,7 +31,7 @@ Status check_beside(const std::string& file, const char* what, const char* optio
 Status check_legend(const RenderCommand& command, const std::vector<ParticleColors>& colors,
                     const std::vector<std::string>& files) {
   if (command.legend.empty()) return {};
-  if (legend_svg(colors).empty()) {
+  if (!has_legend(colors)) {
     return wrong_option("the scene has no particles whose colours mean numbers or species",
                         "--legend");
   }
@@ -46,15 +46,19 @@ RenderCommand command_of_preview(const RenderCommand& command) {
   return shown;
 }
 
+const char* drawing_option(const RenderCommand& command) {
+  return command.overlay && !command.overlay->empty() ? "--overlay" : "--labels";
+}
+
 /// An error if the picture cannot have what is drawn on it.
 Status check_overlay(const RenderCommand& command, const ImageFormat& format) {
   if (is_page_name(command.output) && command.skip_existing)
     return wrong_option("a page, .pdf or .svg, cannot be read back", "--skip-existing");
-  if (command.overlay.empty() || !format.hdr) return {};
+  if (!asks_for_drawing(command) || !format.hdr) return {};
   return wrong_option(std::string("a .") + format.extension +
                           " file has colours before tone mapping, which nothing is drawn on; "
                           "expected --output to be a .png, .jpg, .pdf or .svg file, for example",
-                      "--overlay");
+                      drawing_option(command));
 }
 
 /// An error if there can be no picture of this name before the picture is finished.
@@ -76,18 +80,21 @@ Status check_preview(const RenderCommand& command) {
 
 }  // namespace
 
-bool needs_overlay_module(const RenderCommand& command) {
-  const bool is_page = is_page_name(command.output);
-  return !command.overlay.empty() || (is_page && !command.output.ends_with(".svg"));
+bool can_be_drawn_on(const RenderCommand& command) {
+  return !command.shard && !picture_format(command)->hdr;
+}
+
+bool asks_for_drawing(const RenderCommand& command) {
+  return (command.overlay && !command.overlay->empty()) || !command.look.labels.empty();
 }
 
 Status check_command(const RenderCommand& command) {
   if (auto done = check_part_options(command); !done) return done;
   if (auto done = check_preview(command); !done) return done;
-  if (command.shard && !command.overlay.empty()) {
+  if (command.shard && asks_for_drawing(command)) {
     return wrong_option(
         "is drawn on finished pictures, not on a shard; boule merge does not know the scene",
-        "--overlay");
+        drawing_option(command));
   }
   if (command.shard) return check_run(command, command, "film", {command.scene});
   if (auto done = check_picture_stream(command); !done) return done;

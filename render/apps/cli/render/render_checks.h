@@ -13,8 +13,9 @@ namespace boule::cli {
 /// Errors in the command that show without reading the scene.
 Status check_command(const RenderCommand& command);
 
-/// Whether the picture needs the module that draws on pictures.
-bool needs_overlay_module(const RenderCommand& command);
+/// Whether something can be drawn on the picture; and whether the command itself asks for that.
+bool can_be_drawn_on(const RenderCommand& command);
+bool asks_for_drawing(const RenderCommand& command);
 
 /// Errors with the files to be written. A picture that is there already and may be skipped need not
 /// be writable.

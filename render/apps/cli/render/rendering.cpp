@@ -13,6 +13,7 @@
 #include "render/apps/cli/render/render_checks.h"
 #include "render/apps/cli/report/output_check.h"
 #include "render/apps/cli/report/picture_stream.h"
+#include "render/apps/job/overlay/overlay_labels.h"
 #include "render/apps/job/source_date.h"
 #include "render/frame/partial_picture.h"
 #include "render/frame/scheduler.h"
@@ -41,16 +42,16 @@ PictureShape shape_of(const RenderOptions& options) {
 
 /// Whether the file is written while the picture is rendered. Channels come first as a whole, what
 /// is kept or shown unfinished is in memory as a whole, and so is what goes into a pipe.
-bool comes_in_bands(const RenderCommand& command) {
+bool comes_in_bands(const RenderCommand& command, bool draws) {
   return !command.partial && !command.checkpoint && !command.preview && !command.shard &&
          !command.aovs.any() && !is_stream(command.output) && command.output != standard_output &&
-         command.overlay.empty() && !is_page_name(command.output);
+         !draws && !is_page_name(command.output);
 }
 
 /// The job's options, and what this program does besides.
-RenderOptions run_options(const Scene& scene, const RenderCommand& command) {
+RenderOptions run_options(const Scene& scene, const RenderCommand& command, bool draws) {
   RenderOptions options = options_of(command, scene);
-  options.in_bands = comes_in_bands(command);
+  options.in_bands = comes_in_bands(command, draws);
   if (command.preview && !command.order) options.order = PixelOrder::progressive;
   if (command.partial || command.time_limit || command.checkpoint)
     options.cancel = &StopGuard::flag();
@@ -98,8 +99,7 @@ ExitCode Rendering::run() {
   date_ = std::move(date).value();
   if (auto done = writes() ? check_outputs(command_) : Status(); !done)
     return refuse(done.error(), command_, failed);
-  if (auto done = writes() && needs_overlay_module(command_) ? check_overlay_module() : Status();
-      !done)
+  if (auto done = check_module(asks_for_drawing(command_)); !done)
     return refuse(done.error(), command_, failed);
   std::optional<Renderer> renderer;
   const ExitCode prepared = prepare(renderer);
@@ -111,10 +111,7 @@ ExitCode Rendering::run() {
     // A camera that nobody could have set need not be told of.
     if (!loader_.is_made() || text != camera_note) report_.note_once("boule: note: " + text);
   }
-  const CameraView& view = renderer->scene().camera_view;
-  add_camera(renderer->scene().camera, view, renderer->options().width, overlay_);
-  for (const std::string& text : overlay_notes(overlay_, view))
-    report_.note_once("boule: note: " + text);
+  if (auto done = complete_overlay(*renderer); !done) return explain(done.error());
   return render(*renderer);
 }
 
@@ -124,11 +121,45 @@ Result<LoadedScene> Rendering::load() {
   return loader_.load(command_.frame);
 }
 
-void Rendering::keep_overlay_facts(const LoadedScene& loaded) {
-  overlay_ = overlay_facts(command_.overlay, loaded.particles,
-                           command_.turn ? std::nullopt : command_.frame);
-  overlay_.colors = loader_.colors();
+/// An error if the picture needs the module that draws, and it cannot be loaded. `draws`: something
+/// is drawn on it.
+Status Rendering::check_module(bool draws) const {
+  const std::string& page = command_.output;
+  const bool needs = draws || (is_page_name(page) && !page.ends_with(".svg"));
+  return writes() && needs ? check_overlay_module() : Status();
+}
+
+/// Keeps what is needed of the scene once the renderer has it.
+Status Rendering::keep_facts(LoadedScene& loaded) {
+  origin_ = loaded.origin;
+  const OverlayParts parts = overlay_of(command_, loaded.scene);
+  draws_ = !parts.empty() || has_labels(loaded.particles);
+  if (draws_ && !can_be_drawn_on(command_)) {
+    draws_ = false;
+    report_.note_once("boule: note: nothing is drawn on " +
+                      std::string(command_.shard ? "a shard" : "colours before tone mapping") +
+                      ", though the scene asks for it");
+  }
+  std::optional<double> frame;
+  if (command_.frame && !command_.turn)
+    frame = static_cast<double>(*command_.frame) / command_.interpolate;
+  overlay_ =
+      overlay_facts(draws_ ? parts : OverlayParts(), loaded.particles, loader_.colors(), frame);
   overlay_.pixels_per_point = size_choice(command_).pixels_per_inch() / 72;
+  if (draws_) labelled_ = std::move(loaded.particles);
+  return check_module(draws_);
+}
+
+/// The facts that depend on the camera.
+Status Rendering::complete_overlay(Renderer& renderer) {
+  const CameraView& view = renderer.scene().camera_view;
+  add_camera(renderer.scene().camera, view, renderer.options().width, overlay_);
+  auto labels = seen_labels(labelled_, origin_, renderer);
+  if (!labels) return labels.error();
+  overlay_.labels = std::move(labels).value();
+  for (const std::string& text : overlay_notes(overlay_, view))
+    report_.note_once("boule: note: " + text);
+  return {};
 }
 
 ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
@@ -137,15 +168,14 @@ ExitCode Rendering::prepare(std::optional<Renderer>& renderer) {
   if (auto done = check_loaded(command_, loader_, loaded.value()); !done)
     return refuse(done.error(), command_, wrong_usage);
   Scene& scene = loaded.value().scene;
-  origin_ = loaded.value().origin;
-  keep_overlay_facts(loaded.value());
   stats_.load_seconds = watch_.seconds();
   report_.loaded(loaded.value(), stats_.load_seconds);
+  if (auto done = keep_facts(loaded.value()); !done) return refuse(done.error(), command_, failed);
   live_.start_stage("preparing " + printable(command_.scene));
   choose_background(command_.background, scene);
   scene_hash_ = scene_hash(scene, Scheduler(command_.threads).parallel_for());
 
-  RenderOptions options = run_options(scene, command_);
+  RenderOptions options = run_options(scene, command_, draws_);
   if (auto done = check_transparency(options, command_); !done)
     return refuse(done.error(), command_, wrong_usage);
   // One process decides: the picture may appear meanwhile.

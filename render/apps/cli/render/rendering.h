@@ -50,7 +50,9 @@ class Rendering {
   /// Returns done without a renderer if the picture is there already.
   ExitCode prepare(std::optional<Renderer>& renderer);
   Result<LoadedScene> load();
-  void keep_overlay_facts(const LoadedScene& loaded);
+  [[nodiscard]] Status check_module(bool draws) const;
+  Status keep_facts(LoadedScene& loaded);
+  Status complete_overlay(Renderer& renderer);
   ExitCode render(Renderer& renderer);
   Result<Image> make_image(Renderer& renderer);
   /// The same where its noise is asked for; also which AOVs tell of it, into `channels`.
@@ -100,8 +102,10 @@ class Rendering {
   std::uint64_t scene_hash_ = 0;
   Vec3d origin_;                           ///< that the scene's points are counted from
   std::optional<PartialSamples> partial_;  ///< none: the picture is finished
+  bool draws_ = false;                     ///< something is drawn on the picture
   OverlayFacts overlay_;
-  std::optional<NoiseReached> noise_;  ///< none: it was not measured
+  std::vector<ParticleFacts> labelled_;  ///< tables whose labels are drawn
+  std::optional<NoiseReached> noise_;    ///< none: it was not measured
   std::optional<Checkpoint> checkpoint_;
   std::optional<RenderStatistics> of_team_;  ///< what all ranks traced
   std::optional<ImageStart> image_start_;    ///< loads the image module while the scene is prepared

@@ -114,7 +114,7 @@ void Rendering::tell_written() const {
 Status Rendering::write_shown(const Image& image, const std::string& output,
                               ImageFileOptions file) const {
   if (is_page_name(output)) return write_page(image, overlay_, output, file);
-  if (!overlay_.parts.empty()) {
+  if (!overlay_.is_empty()) {
     auto layer = overlay_layer(overlay_, image, file.exposure_stops);
     if (!layer) return layer.error();
     file.layer = std::move(layer).value();

@@ -41,7 +41,7 @@ struct Shown {
 
 Shown show(const OverlayFacts& facts, const Image& image, float stops, const Table* table) {
   Shown shown{tone_map(image, stops), image.alpha.empty() ? 3 : 4};
-  if (facts.parts.empty() || table == nullptr) return shown;
+  if (facts.is_empty() || table == nullptr) return shown;
   const TextWidth width_of = [table](const std::string& text, double size) {
     return table->width_of(text.c_str(), size);
   };
@@ -95,7 +95,7 @@ Status put_page(const Image& image, const OverlayFacts& facts, const std::string
                 const ImageFileOptions& options) {
   const bool is_pdf = ascii_lower(path).ends_with(".pdf");
   const Table* table = nullptr;
-  if (is_pdf || !facts.parts.empty()) {
+  if (is_pdf || !facts.is_empty()) {
     const auto opened = open_table();
     if (!opened) return opened.error();
     table = opened.value();

@@ -25,7 +25,7 @@ Result<std::shared_ptr<const PixelLayer>> overlay_layer(const OverlayFacts& fact
 bool is_page_name(const std::string& path);
 
 /// Writes such a page, as large as the picture in print. Exposure, date, `stop` and `temporary` of
-/// `options` are as for write_image(); so are errors. Of facts the parts may be empty. A PDF needs
+/// `options` are as for write_image(); so are errors. The facts may be empty. A PDF needs
 /// the overlay module in any case.
 Status write_page(const Image& image, const OverlayFacts& facts, const std::string& path,
                   const ImageFileOptions& options);

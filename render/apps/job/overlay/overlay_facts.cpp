@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <set>
+#include <utility>
 
 #include "core/base/text.h"
 #include "core/math/geometry.h"
@@ -24,17 +25,16 @@ std::optional<OverlayPart> part_of(const std::string& name) {
 
 /// Tables of radii are in angstrom, and so are the files that they are used for.
 std::string unit_of(const ParticleFacts& facts) {
-  if (facts.format == "gro") return "nm";
-  const auto& format = facts.format;
-  const bool is_molecule = format == "pdb" || format == "pqr" || format == "mmcif";
+  if (auto unit = column_unit(facts.format, "x"); !unit.empty()) return unit;
   const bool is_in_angstrom = facts.radius_source.find("angstrom") != std::string::npos;
-  return is_molecule || is_in_angstrom ? "\u00c5" : "";
+  return is_in_angstrom ? "\u00c5" : "";
 }
 
 }  // namespace
 
 std::optional<OverlayParts> parse_overlay(const std::string& text) {
   OverlayParts parts;
+  if (text == "none") return parts;
   for (const std::string& name : split(text, ',')) {
     const auto part = part_of(name);
     if (!part || std::find(parts.begin(), parts.end(), *part) != parts.end()) return std::nullopt;
@@ -58,13 +58,13 @@ bool OverlayFacts::has(OverlayPart part) const {
 }
 
 OverlayFacts overlay_facts(const OverlayParts& parts, const std::vector<ParticleFacts>& particles,
-                           const std::optional<int>& frame) {
+                           std::vector<ParticleColors> colors, const std::optional<double>& frame) {
   OverlayFacts facts;
   facts.parts = parts;
+  facts.colors = std::move(colors);
   std::set<std::string> units;
   std::set<double> times;
   for (const ParticleFacts& one : particles) {
-    facts.colors.push_back(one.colors);
     units.insert(unit_of(one));
     if (one.time) times.insert(*one.time);
   }
@@ -72,7 +72,7 @@ OverlayFacts overlay_facts(const OverlayParts& parts, const std::vector<Particle
   if (times.size() == 1) {
     facts.time = fmt::format("t = {:g}", *times.begin());
   } else if (frame) {
-    facts.time = fmt::format("frame {}", *frame);
+    facts.time = fmt::format("frame {:g}", *frame);
   }
   return facts;
 }
@@ -94,7 +94,7 @@ void add_camera(const Camera& camera, const CameraView& view, int width, Overlay
 
 std::vector<std::string> overlay_notes(const OverlayFacts& facts, const CameraView& view) {
   std::vector<std::string> notes;
-  if (facts.has(OverlayPart::legend) && legend_svg(facts.colors).empty())
+  if (facts.has(OverlayPart::legend) && !has_legend(facts.colors))
     notes.emplace_back("no legend: the colours of particles mean neither numbers nor kinds");
   if (facts.has(OverlayPart::time) && facts.time.empty())
     notes.emplace_back("no time: this is no series, and the file has no time");

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
+
+#include "render/apps/job/legend.h"
 
 namespace boule {
 namespace {
@@ -48,12 +51,13 @@ class Histogram {
   }
 
   [[nodiscard]] bool is_light() const { return sum_ >= 128 * all_; }
-  /// Whether more than one in a hundred is hard to tell from the text.
-  [[nodiscard]] bool hides_text() const {
+  /// Whether more than one in a hundred is hard to tell from a text for a light ground, or a dark
+  /// one.
+  [[nodiscard]] bool hides_text(bool on_light) const {
     constexpr std::size_t darkest = 140, lightest = 115;
     std::uint64_t bad = 0;
     for (std::size_t i = 0; i < counts_.size(); ++i) {
-      if (is_light() ? i < darkest : i > lightest) bad += counts_[i];
+      if (on_light ? i < darkest : i > lightest) bad += counts_[i];
     }
     return 100 * bad > all_;
   }
@@ -73,18 +77,22 @@ PixelBox pixels_of(const PlacedBox& placed, double scale, double pixels,
           at((placed.y + placed.box.height * scale) * pixels + 1, ground.height)};
 }
 
-/// Puts a part into the drawing.
-void put(PlacedBox placed, double scale, double pixels, const OverlayGround& ground, Drawing& all) {
+/// Puts a part into the drawing. `is_light`: the ground that its texts are for; none: what is under
+/// it.
+void put(PlacedBox placed, double scale, double pixels, const OverlayGround& ground, Drawing& all,
+         std::optional<bool> is_light = {}) {
   if (placed.box.drawing.empty()) return;
   const Histogram under(ground, pixels_of(placed, scale, pixels, ground));
-  const Paint text = paint_of(under.is_light() ? dark_text : light_text);
+  const bool on_light = is_light.value_or(under.is_light());
+  const bool needs_halo = under.hides_text(on_light);
+  const Paint text = paint_of(on_light ? dark_text : light_text);
   for (DrawnItem& one : placed.box.drawing) {
     for (Point& point : one.points)
       point = {placed.x + point.x * scale, placed.y + point.y * scale};
     one.width *= scale;
     one.size *= scale;
-    if (under.hides_text()) {
-      one.halo = paint_of(under.is_light() ? SrgbColor{255, 255, 255} : SrgbColor{}, 0.85);
+    if (needs_halo) {
+      one.halo = paint_of(on_light ? SrgbColor{255, 255, 255} : SrgbColor{}, 0.85);
       one.halo_width = 1.2 * scale;
     }
     if (one.fill.r == ink.r) one.fill = text;
@@ -127,7 +135,60 @@ double fitting_scale(const Boxes& all, double width, double height) {
   return std::max(scale, 0.1);
 }
 
+/// A label at its particle: on it if there is room, else at its upper right.
+PlacedBox placed_label(const OverlayLabel& label, double pixels, const TextWidth& width_of) {
+  PlacedBox placed{draw_label(label.text, width_of)};
+  const auto& [width, height] = std::pair(placed.box.width, placed.box.height);
+  const double x = label.x / pixels, y = label.y / pixels, radius = label.radius / pixels;
+  const bool fits = std::hypot(width, height) < 2 * radius;
+  const double aside = 0.75 * radius + 1;
+  placed.x = fits ? x - width / 2 : x + aside;
+  placed.y = fits ? y - height / 2 : y - aside - height;
+  return placed;
+}
+
+void put_labels(const OverlayFacts& facts, const OverlayGround& ground, const TextWidth& width_of,
+                Drawing& all) {
+  const double pixels = facts.pixels_per_point;
+  const double width = ground.width / pixels, height = ground.height / pixels;
+  if (facts.labels.empty()) return;
+  const bool is_light = Histogram(ground, {0, 0, ground.width, ground.height}).is_light();
+  std::vector<std::array<Point, 2>> taken;
+  for (const OverlayLabel& label : facts.labels) {
+    PlacedBox placed = placed_label(label, pixels, width_of);
+    const OverlayBox& box = placed.box;
+    placed.x = std::clamp(placed.x, 0.0, std::max(width - box.width, 0.0));
+    placed.y = std::clamp(placed.y, 0.0, std::max(height - box.height, 0.0));
+    const std::array<Point, 2> own{
+        {{placed.x, placed.y}, {placed.x + box.width, placed.y + box.height}}};
+    const bool covers = std::any_of(taken.begin(), taken.end(), [&](const auto& other) {
+      return own[0].x < other[1].x + 1 && other[0].x < own[1].x + 1 && own[0].y < other[1].y + 1 &&
+             other[0].y < own[1].y + 1;
+    });
+    if (covers) continue;
+    taken.push_back(own);
+    put(std::move(placed), 1, pixels, ground, all, is_light);
+  }
+}
+
+/// About as wide as the letters of common fonts.
+double estimated_width(const std::string& text, double size) {
+  const auto letters = std::count_if(text.begin(), text.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0U) != 0x80;
+  });
+  return 0.6 * size * static_cast<double>(letters);
+}
+
 }  // namespace
+
+double legend_room(const OverlayFacts& facts, int width, int height, double margin) {
+  if (!facts.has(OverlayPart::legend) || !has_legend(facts.colors)) return 0;
+  const double wide = width / facts.pixels_per_point, high = height / facts.pixels_per_point;
+  Boxes boxes = boxes_of(facts, wide, high, estimated_width);
+  const double scale = fitting_scale(boxes, wide, high);
+  const double taken = (boxes.legend.width + edge_room + between) * scale / wide;
+  return std::clamp(taken - margin, 0.0, 0.4);
+}
 
 Drawing lay_out(const OverlayFacts& facts, const OverlayGround& ground, const TextWidth& width_of) {
   const double pixels = facts.pixels_per_point;
@@ -139,10 +200,11 @@ Drawing lay_out(const OverlayFacts& facts, const OverlayGround& ground, const Te
     larger.pixels_per_point *= scale;
     boxes = boxes_of(larger, width / scale, height / scale, width_of);
   }
+  Drawing all;
+  put_labels(facts, ground, width_of, all);
   const double edge = edge_room * scale;
   const auto right = [&](const OverlayBox& box) { return width - edge - box.width * scale; };
   const auto bottom = [&](const OverlayBox& box) { return height - edge - box.height * scale; };
-  Drawing all;
   const double legend = right(boxes.legend), bar = right(boxes.bar), low = bottom(boxes.bar);
   const double axes = bottom(boxes.axes);
   put({std::move(boxes.legend), legend, edge}, scale, pixels, ground, all);

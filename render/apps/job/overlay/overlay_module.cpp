@@ -57,7 +57,6 @@ Layout layout_of(cairo_t* to, const char* text, double size) {
 void draw_text(cairo_t* to, const Item& item, bool as_halo) {
   const Layout layout = layout_of(to, item.text, item.size);
   const double baseline = pango_layout_get_baseline(layout.get()) / double{PANGO_SCALE};
-  constexpr double capital = 0.72;
   cairo_move_to(to, item.points[0].x, item.points[0].y + capital / 2 * item.size - baseline);
   if (as_halo) return pango_cairo_layout_path(to, layout.get());
   set_color(to, item.fill);

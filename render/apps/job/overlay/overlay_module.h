@@ -24,6 +24,9 @@ struct Point {
   double x, y;
 };
 
+/// How high capital letters are, of the height of the font.
+inline constexpr double capital = 0.72;
+
 enum class Shape : std::uint32_t { path, disc, ramp, text };
 
 /// Something to draw. Lengths are points of 1/72 inch, counted from the upper left corner.

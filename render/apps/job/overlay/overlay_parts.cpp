@@ -46,7 +46,7 @@ void add_arrow(OverlayBox& box, double base, double tip, SrgbColor color) {
 
 void add_bar(OverlayBox& box, const ParticleColors::Scale& scale, double room,
              const TextWidth& width_of) {
-  add_text(box, 0, box.height + row_step / 2, scale.by, width_of);
+  add_text(box, 0, box.height + row_step / 2, legend_title(scale), width_of);
   const double title = box.height + row_step + 3;
   const double above = scale.goes_above ? arrow : 0, below = scale.goes_below ? arrow : 0;
   const double free = room - title - above - below - row_step / 2;
@@ -191,6 +191,12 @@ OverlayBox draw_axes(const OverlayFacts& facts, const TextWidth& width_of) {
     add_text(box, from.x + away * right - width / 2, from.y + away * down, texts[i], width_of);
   }
   return moved_to_corner(std::move(box), width_of);
+}
+
+OverlayBox draw_label(const std::string& text, const TextWidth& width_of) {
+  OverlayBox box{.height = overlay_module::capital * overlay_text};
+  add_text(box, 0, box.height / 2, text, width_of);
+  return box;
 }
 
 OverlayBox draw_time(const OverlayFacts& facts, const TextWidth& width_of) {

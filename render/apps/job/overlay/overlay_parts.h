@@ -27,6 +27,8 @@ OverlayBox draw_legend(const OverlayFacts& facts, double room, const TextWidth& 
 OverlayBox draw_scale_bar(const OverlayFacts& facts, double room, const TextWidth& width_of);
 OverlayBox draw_axes(const OverlayFacts& facts, const TextWidth& width_of);
 OverlayBox draw_time(const OverlayFacts& facts, const TextWidth& width_of);
+/// A text alone, as high as its capital letters.
+OverlayBox draw_label(const std::string& text, const TextWidth& width_of);
 
 /// The largest of 1, 2 and 5 times a power of ten that is at most `length`. Precondition: it is
 /// finite and above 0.

@@ -85,10 +85,9 @@ std::string item_text(const DrawnItem& item, std::size_t number) {
     case Shape::text:
       break;
   }
-  constexpr double capital = 0.72;  // of the font's size, as the overlay module has it
   return fmt::format("<text x=\"{:.2f}\" y=\"{:.2f}\" font-size=\"{:.3g}\" fill=\"{}\">{}</text>\n",
-                     item.points[0].x, item.points[0].y + capital / 2 * item.size, item.size,
-                     rgb(item.fill), xml_text(item.text));
+                     item.points[0].x, item.points[0].y + overlay_module::capital / 2 * item.size,
+                     item.size, rgb(item.fill), xml_text(item.text));
 }
 
 /// What is drawn below an item: the item itself, as a wide line.

@@ -128,6 +128,7 @@ class Fit(_Keys):
     margin: float
     pose: Literal["upright", "principal"] | None
     roll: float
+    room: float
     distortion: Distortion | None
 
 class Distortion(_Keys):
@@ -171,6 +172,7 @@ class ImageSettings(_Keys):
     filter: _Filter
     transparent: bool
     outline: float
+    overlay: Sequence[_OverlayPart]
 
 class RenderSettings(_Keys):
     method: _Method
@@ -232,6 +234,8 @@ class Particles(_Keys):
     arrows: str | Sequence[str] | None
     arrow_scale: float | None
     select: str | None
+    labels: str | None
+    label_text: str | Sequence[str] | None
     wrap: bool | None
     unwrap: bool | None
     boundary: bool | None
@@ -557,6 +561,8 @@ class _Shown(_Keys):
     arrow_scale: float | None
     select: str | None
     clip: str | Sequence[str] | None
+    labels: str | None
+    label_text: str | Sequence[str] | None
     wrap: bool
     unwrap: bool
     boundary: bool
@@ -587,6 +593,7 @@ def frames(
     source: _Path,
     frames: range | None = ...,
     *,
+    interpolate: int = ...,
     polygons: _Polygons = ...,
     **look: _FromFile,
 ) -> Iterator[Scene]: ...

@@ -28,7 +28,7 @@ _MORE = {
     "particles": (
         "file", "frame", "format", "columns", "water", "topology", "radius", "radii", "scale",
         "color", "colors", "nan_color", "style", "bonds", "bond_radius", "bond_color", "cell_edges",
-        "axes", "arrows", "arrow_scale", "select", "wrap", "unwrap", "boundary",
+        "axes", "arrows", "arrow_scale", "select", "labels", "label_text", "wrap", "unwrap", "boundary",
         "replicate", "material",
     ),
 }  # fmt: skip

@@ -34,7 +34,7 @@ def render(scene, *, time_limit=None, partial=False, progress=False, frame=None,
     background: the colour behind all objects: "#rrggbb" or "transparent". outline: in pixels, or
         "0.5pt". width ("85mm") and dpi: the size in print; of size the shape counts then.
     overlay: what is drawn on the picture where it is shown or saved in 8 bits, PDF or SVG: any of
-        legend, scale, axes, time. np.asarray(picture) has none of it.
+        legend, scale, axes, time, or "none". np.asarray(picture) has none of it.
     seed: of the random numbers. crop: (x0, y0, x1, y1), pixels of the frame to render.
     aov: names of extra channels: "depth,normal" or a list of them (depth, normal, position, id,
         albedo, z; with noise or aa also noise, samples).

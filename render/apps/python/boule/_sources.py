@@ -71,8 +71,9 @@ def load(source, *, frame=None, polygons="plane", **look):
         range, nan_color, radius, radii (a dictionary of radii by species), scale, style
         ("space-filling", "balls-and-sticks", "sticks"), bonds (a rule, or a distance),
         bond_radius, bond_color, cell_edges, axes, arrows (three columns, or the one name that they
-        have before x, y, z), arrow_scale, select, clip ("x<5", or a list of such), wrap, unwrap,
-        boundary, replicate, view, up, roll, ortho, fov, margin.
+        have before x, y, z), arrow_scale, select, clip ("x<5", or a list of such), labels and
+        label_text (texts of particles, which render() of the file draws and a Scene does not keep),
+        wrap, unwrap, boundary, replicate, view, up, roll, ortho, fov, margin.
 
     Raises boule.Error with file, line, column and key.
     """
@@ -81,11 +82,13 @@ def load(source, *, frame=None, polygons="plane", **look):
 
 
 @with_look()
-def frames(source, frames=None, *, polygons="plane", **look):
+def frames(source, frames=None, *, interpolate=1, polygons="plane", **look):
     """The scenes of a series, one after the other: frames of a file of particles, or of files whose
     names have #### for the number of the frame.
 
     frames: a range of frames, such as range(0, 100, 10); None: all of a file of particles.
+    interpolate: how many scenes there are from frame to frame of range(a, b), 1 to 1000: particles
+        move in between.
 
     Boule makes its choices once, from all of them, as `boule render --frames` does: radii, the ranges
     of colour maps, the colours of kinds, the floor, the camera. A file of one frame without #### in
@@ -99,7 +102,14 @@ def frames(source, frames=None, *, polygons="plane", **look):
         raise error("frames", f"expected a range of frames, counting up, got {frames!r}")
     if frames.start < 0 or frames[-1] > 2**31 - 1:
         raise error("frames", f"must be from 0 to {2**31 - 1}")
-    return _frames(_core.Series(path, frames[0], frames[-1], frames.step, keys), frames)
+    if not isinstance(interpolate, int) or not 1 <= interpolate <= 1000:
+        raise error("interpolate", f"expected a whole number from 1 to 1000, got {interpolate!r}")
+    if interpolate > 1:
+        if frames.step != 1:
+            raise error("interpolate", "needs all frames, a range without a step")
+        frames = range(frames[0] * interpolate, frames[-1] * interpolate + 1)
+    series = _core.Series(path, frames[0], frames[-1], frames.step, interpolate, keys)
+    return _frames(series, frames)
 
 
 def _frames(series, frames):

@@ -80,7 +80,7 @@ void check_exposure(float exposure) {
 
 /// What is drawn on the picture as it is shown; null: nothing.
 Result<std::shared_ptr<const PixelLayer>> layer_of(const PictureParts& parts, float exposure) {
-  if (parts.overlay.parts.empty()) return std::shared_ptr<const PixelLayer>();
+  if (parts.overlay.is_empty()) return std::shared_ptr<const PixelLayer>();
   return overlay_layer(parts.overlay, parts.image, exposure);
 }
 

@@ -9,7 +9,10 @@
 #include <string>
 #include <utility>
 
+#include "render/apps/job/legend.h"
 #include "render/apps/job/look_choices.h"
+#include "render/apps/job/overlay/legend_room.h"
+#include "render/apps/job/overlay/overlay_labels.h"
 #include "render/apps/job/render_choices.h"
 #include "render/apps/python/pictures/picture.h"
 #include "render/apps/python/scenes/scenes.h"
@@ -86,16 +89,20 @@ class Run {
 };
 
 Status Run::work(Call& call) {
-  if (auto done = job_.overlay.empty() ? Status() : check_overlay_module(); !done) return done;
   auto loaded = request_.load(call);
   if (!loaded) return loaded.error();
   Scene& scene = loaded.value().scene;
+  leave_legend_room(job_.overlay, size_choice(job_), loaded.value());
+  const auto particles = std::move(loaded.value().particles);
+  const OverlayParts overlay = overlay_of(job_, scene);
+  const bool draws = !overlay.empty() || has_labels(particles);
+  if (auto done = draws ? check_overlay_module() : Status(); !done) return done;
   choose_background(job_.background, scene);
   RenderOptions options = options_of(job_, scene);
   options.cancel = &call.cancel;
   options.live = &live_;
   auto parts = std::make_shared<PictureParts>();
-  parts->overlay = overlay_facts(job_.overlay, loaded.value().particles, frame_);
+  parts->overlay = overlay_facts(overlay, particles, colors_of(particles), frame_);
   parts->notes = std::move(loaded.value().notes);
   parts->origin = loaded.value().origin;
   if (auto done = validate(scene); !done) return done;
@@ -104,6 +111,9 @@ Status Run::work(Call& call) {
   if (!renderer) return renderer.error();
   begin_ = Clock::now();
   is_rendering_ = true;
+  auto labels = seen_labels(particles, parts->origin, renderer.value());
+  if (!labels) return labels.error();
+  parts->overlay.labels = std::move(labels).value();
   if (auto done = render(renderer.value(), *parts, call); !done) return done;
   describe(renderer.value(), *parts);
   picture_ = std::move(parts);

@@ -226,9 +226,7 @@ py::dict SceneValues::all() {
   values["origin"] = origin();
   values["notes"] = loaded_.notes;
   values["warnings"] = loaded_.warnings;
-  std::vector<ParticleColors> colors;
-  for (const ParticleFacts& facts : loaded_.particles) colors.push_back(facts.colors);
-  values["legend"] = legend_svg(colors);
+  values["legend"] = legend_svg(colors_of(loaded_.particles));
   return values;
 }
 

@@ -70,10 +70,11 @@ std::shared_ptr<ParticleFile> particles_in(const Data& data) {
 }
 
 std::shared_ptr<Series> open_series(const std::string& path, int first, int last, int step,
-                                    const py::dict& keys) {
+                                    int interpolate, const py::dict& keys) {
   auto series = std::make_shared<Series>();
   series->job = job_of(path, keys);
   series->job.frames = FrameRange{first, last, step};
+  series->job.interpolate = interpolate;
   series->loader = std::make_unique<SceneLoader>(series->job);
   return series;
 }
@@ -198,7 +199,7 @@ void bind_scenes(py::module_& module) {
                               "Something large that a scene holds: spheres, a picture, ...");
   py::class_<Series, std::shared_ptr<Series>>(module, "Series")
       .def(py::init(&open_series), inside(), py::arg("path"), py::arg("first"), py::arg("last"),
-           py::arg("step"), py::arg("keys"))
+           py::arg("step"), py::arg("interpolate"), py::arg("keys"))
       .def("read", &next_of_series, inside(), py::arg("frame"));
   module.def("series_of", &series_of, inside(), py::arg("all"), py::arg("keys"));
   module.def("count_frames", &count_frames, inside(), py::arg("path"), py::arg("keys"));

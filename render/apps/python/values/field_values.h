@@ -6,6 +6,7 @@
 #include <string>
 #include <type_traits>
 #include <variant>
+#include <vector>
 
 #include "core/scene/field.h"
 #include "render/apps/python/values/values.h"
@@ -68,6 +69,14 @@ class FieldValues {
     } else {
       values[key] = to_python(member);
     }
+  }
+  template <class Rule, class Enum>
+  requires std::is_enum_v<Enum>
+  void put(pybind11::dict& values, const pybind11::str& key, const Rule&,
+           const std::vector<Enum>& some) const {
+    pybind11::list names;
+    for (const Enum one : some) names.append(std::string(name_of(one)));
+    values[key] = names;
   }
   template <class Rule, class T>
   void put(pybind11::dict& values, const pybind11::str& key, const Rule& rule,

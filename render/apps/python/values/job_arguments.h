@@ -6,8 +6,8 @@
 #include <tuple>
 #include <type_traits>
 
+#include "core/scene/scene.h"
 #include "render/apps/job/choice.h"
-#include "render/apps/job/overlay/overlay_facts.h"
 #include "render/apps/python/values/arguments.h"
 #include "render/apps/python/values/errors.h"
 #include "render/renderer/aov_channels.h"
@@ -39,9 +39,12 @@ bool read_row(const Arguments& given, const Choice<Owner, Member, Rule, To>& row
     return target;
   } else {
     const std::string text = text_of(given, name, row.rule.between);
-    constexpr bool may_be_none =
-        std::is_same_v<Member, AovSelection> || std::is_same_v<Member, OverlayParts>;
-    if (may_be_none && text.empty()) return false;  // a list of none
+    if constexpr (std::is_same_v<Value, AovSelection> || std::is_same_v<Value, OverlayParts>) {
+      if (text.empty()) {  // a list of none
+        target = Value{};
+        return true;
+      }
+    }
     const auto parsed = row.rule.parse(text);
     if (!parsed)
       throw_error(name, quote(text) + " is not understood, expected " + row.rule.expected +

@@ -85,4 +85,15 @@ void leave_out_unwanted(const std::optional<std::vector<std::string>>& wanted,
   });
 }
 
+std::string column_unit(std::string_view format, std::string_view column) {
+  const bool is_molecule = format == "pdb" || format == "mmcif" || format == "pqr";
+  if (!is_molecule && format != "gro") return {};
+  const bool is_length = column == "x" || column == "y" || column == "z" || column == "radius";
+  if (is_length) return is_molecule ? "\u00c5" : "nm";
+  if (is_molecule && column == "bfactor") return "\u00c5\u00b2";
+  if (format == "pqr" && column == "charge") return "e";
+  const bool is_velocity = column == "vx" || column == "vy" || column == "vz" || column == "|v|";
+  return format == "gro" && is_velocity ? "nm/ps" : "";
+}
+
 }  // namespace boule

@@ -96,6 +96,10 @@ struct ParticleFrame {
 const NumberColumn* find_number_column(const ParticleFrame& frame, const std::string& name);
 const TextColumn* find_text_column(const ParticleFrame& frame, const std::string& name);
 
+/// The unit of a column, or of x, y, z, where the format of the file says it: "\u00c5", "nm/ps".
+/// Empty: it is unknown.
+std::string column_unit(std::string_view format, std::string_view column);
+
 /// Puts bonds in order: a < b in each, each once, none of a particle with itself.
 void put_in_order(std::vector<ParticleBond>& bonds);
 

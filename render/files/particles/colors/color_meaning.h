@@ -26,6 +26,7 @@ struct ParticleColors {
     std::size_t missing = 0;  ///< particles without a number, of that colour
     /// Whether some numbers lie below and above the range; of a series, whether they may.
     bool goes_below = false, goes_above = false;
+    std::string unit{};  ///< of its numbers; empty: unknown
   };
   /// The shown species, in the order of the file; or the texts of another column that distinguishes
   /// particles. Empty for other rules.

@@ -32,6 +32,9 @@ struct SceneFileOptions {
   PolygonPolicy polygons = PolygonPolicy::plane;
   /// Of a series: selects the camera's position, the data files and the frame of a trajectory.
   std::optional<int> frame{};
+  /// Of a series: how far it is to the next frame, 0 up to 1; particles (between_frames()) and
+  /// cameras with keys are in between.
+  double between = 0;
   /// Of a series: the choices of all its frames, where the scene file leaves them open.
   SeriesChoices choices{};
   /// Of a series: the origin, where the scene file leaves it open.

@@ -4,10 +4,12 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "render/files/particle_file/frame/particle_frame.h"
 #include "render/files/particles/colors/color_meaning.h"
 #include "render/files/particles/particle_choices.h"
+#include "render/files/particles/particle_labels.h"
 
 namespace boule {
 
@@ -25,6 +27,7 @@ struct ParticleFacts {
   std::size_t bonds = 0;         ///< of the shown particles, without those of images
   std::string radius_source{};   ///< as ParticleSpheres
   ParticleColors colors{};
+  std::vector<ParticleLabel> labels{};
   std::optional<ParticleCell> cell{};
   bool axes_matter = true;  ///< as ParticleSpheres
   ParticleChoices own{};    ///< what the frame by itself has for what is chosen

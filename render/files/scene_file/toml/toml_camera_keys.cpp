@@ -127,7 +127,7 @@ Camera without_elements(const Camera& camera, const CameraMotion& motion) {
 
 }  // namespace
 
-std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<int> frame,
+std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<double> frame,
                                               FirstError& error) {
   TomlMember* const camera = find_key(root, "camera");
   if (camera == nullptr) return std::nullopt;
@@ -136,7 +136,7 @@ std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<i
   CameraMotion motion =
       CameraKeys(TomlTable(*members, camera->value.place, "camera", error)).read();
   if (!error.status()) return std::nullopt;
-  const int now = frame.value_or(motion.frames.front());
+  const double now = frame.value_or(motion.frames.front());
   std::erase_if(*members, [](const TomlMember& member) { return member.key == "key"; });
   for (const CameraTrack& track : motion.tracks) {
     if (!track.places.empty()) members->push_back(member_of(track, now));

@@ -35,7 +35,7 @@ struct CameraMotion {
 /// that name it, component by component, by monotone_cubic() in double. Without a frame, that of
 /// the first key is taken. `root` holds the members of the whole file. Returns nothing if there are
 /// no such tables.
-std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<int> frame,
+std::optional<CameraMotion> apply_camera_keys(TomlMembers& root, std::optional<double> frame,
                                               FirstError& error);
 
 /// Reports the first key whose frame `camera`, read from `table` for another frame, cannot show.

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 #include "core/scene/field.h"
 #include "render/files/scene_file/toml/toml_table.h"
@@ -61,6 +63,13 @@ class TomlFields {
   void read(std::string_view key, const TypeRule&, Enum& member) {
     static_assert(names_every_enumerator<Enum>, "an enumerator has no name");
     if (table_.has(key)) member = static_cast<Enum>(table_.choose(key, names<Enum>));
+  }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void read(std::string_view key, const TypeRule&, std::vector<Enum>& members) {
+    static_assert(names_every_enumerator<Enum>, "an enumerator has no name");
+    for (const std::size_t index : table_.choose_some(key, names<Enum>))
+      members.push_back(static_cast<Enum>(index));
   }
   void read(std::string_view, const MaterialRule&, std::uint32_t& member) {
     member = names_->material_of(table_);

@@ -72,14 +72,29 @@ BondChoice read_bonds(TomlTable& table) {
   return read_name<BondRule>(table, "bonds", "a number, ");
 }
 
+/// The names of columns: one, or an array of some.
+std::vector<std::string> read_columns(TomlTable& table, std::string_view key) {
+  std::vector<std::string> names;
+  if (table.has_text(key)) {
+    table.read(key, names.emplace_back());
+  } else {
+    table.read(key, names);
+  }
+  return names;
+}
+
+LabelRule read_labels(TomlTable& table) {
+  LabelRule labels;
+  table.read("labels", labels.select);
+  labels.text = read_columns(table, "label_text");
+  if (labels.select.empty() && !labels.text.empty())
+    table.report("label_text", "needs the particles of labels");
+  return labels;
+}
+
 /// The vectors: three columns, or the one name that they have before x, y, z.
 ArrowColumns read_arrows(TomlTable& table) {
-  ArrowColumns arrows;
-  if (table.has_text("arrows")) {
-    table.read("arrows", arrows.names.emplace_back());
-  } else {
-    table.read("arrows", arrows.names);
-  }
+  ArrowColumns arrows{read_columns(table, "arrows")};
   if ((arrows.names.size() != 1 && arrows.names.size() != 3) || arrows.names.front().empty()) {
     table.report("arrows", "expected three columns, or the name that they have before x, y, z");
     arrows.names = {"v"};
@@ -151,6 +166,7 @@ ParticleStyle read_particle_style(TomlTable& table) {
   if (table.has("nan_color")) style.nan_color = read_color_codes(table, "nan_color");
   read_bond_keys(table, style);
   table.read("select", style.select);
+  style.labels = read_labels(table);
   table.read("wrap", style.wrap);
   table.read("unwrap", style.unwrap);
   table.read("boundary", style.boundary);

@@ -7,6 +7,7 @@
 
 #include "render/files/file/nearest_name.h"
 #include "render/files/particle_file/particle_file.h"
+#include "render/files/particles/between_frames.h"
 #include "render/files/scene_file/loaded/frame_name.h"
 #include "render/files/scene_file/loaded/particle_file_cache.h"
 #include "render/files/scene_file/loaded/scene_data.h"
@@ -65,8 +66,12 @@ class ParticleTable {
   template <class Spheres>
   TomlParticles tell(const Spheres& spheres, std::size_t of_file);
   Status find_wrong_radius() const;
-  std::shared_ptr<ParticleFile> open(const ParticleFileOptions& file);
+  std::shared_ptr<ParticleFile> open(const std::string& name, const std::string& path);
+  [[nodiscard]] bool is_of_series(const ParticleFile& file) const;
   std::optional<std::size_t> choose_frame(const ParticleFile& file);
+  std::optional<ParticleFrame> read_of(ParticleFile& file, std::size_t frame);
+  std::optional<ParticleFrame> read_next(ParticleFile& file, std::size_t frame);
+  std::optional<ParticleFrame> kept(Result<ParticleFrame> frame);
   void report_file(const Diagnostic& error);
   void report_key(const Diagnostic& error);
 
@@ -82,8 +87,9 @@ std::optional<TomlParticles> ParticleTable::read() {
   keys_.style.chosen = find_choices(options_.choices, table_.path());
   keys_.style.lacks_kinds = options_.frame.has_value();
   keys_.file.wanted = columns_of(keys_.style);
+  if (options_.between > 0) keys_.file.wanted->emplace_back("id");
   keys_.file.most_bonded = most_bonded_of(keys_.style);
-  const std::shared_ptr<ParticleFile> file = open(keys_.file);
+  const std::shared_ptr<ParticleFile> file = open(keys_.name, keys_.path);
   if (!file) return std::nullopt;
   const auto number = choose_frame(*file);
   if (!number) return std::nullopt;
@@ -116,6 +122,7 @@ std::optional<TomlParticles> ParticleTable::read() {
   ParticleSpheres& spheres = made.value();
   facts_.bonds = spheres.bonds();
   facts_.own = spheres.own_choices();
+  facts_.labels = spheres.labels();
   TomlParticles particles = tell(spheres, of_file);
   particles.spheres = std::move(spheres);
   return particles;
@@ -128,6 +135,8 @@ TomlParticles ParticleTable::tell(const Spheres& spheres, std::size_t of_file) {
   particles.facts.spheres = static_cast<std::size_t>(spheres.size());
   particles.facts.radius_source = spheres.radius_source();
   particles.facts.colors = spheres.colors();
+  if (auto& scale = particles.facts.colors.scale)
+    scale->unit = column_unit(particles.facts.format, scale->by);
   particles.facts.cell = spheres.cell();
   particles.facts.axes_matter = spheres.axes_matter();
   // What is decided is told once for all files of a series.
@@ -174,28 +183,59 @@ std::shared_ptr<ParticleSource> ParticleTable::open_source(
   return nullptr;
 }
 
-std::shared_ptr<ParticleFile> ParticleTable::open(const ParticleFileOptions& file) {
+std::shared_ptr<ParticleFile> ParticleTable::open(const std::string& name,
+                                                  const std::string& path) {
   if (options_.data != nullptr) {
-    const auto found = options_.data->particles.find(keys_.name);
+    const auto found = options_.data->particles.find(name);
     if (found != options_.data->particles.end()) return found->second;
   }
   ParticleFileCache own;
   ParticleFileCache& cache = options_.particle_files != nullptr ? *options_.particle_files : own;
-  auto opened = cache.open(keys_.path, file, options_.parallel_for);
+  auto opened = cache.open(path, keys_.file, options_.parallel_for);
   if (opened) return opened.value();
   report_file(opened.error());
   return nullptr;
 }
 
 std::optional<ParticleFrame> ParticleTable::read_frame(ParticleFile& file) {
-  auto frame = file.read(static_cast<long>(facts_.frame), options_.parallel_for);
-  if (!frame) {
-    report_file(frame.error());
-    return std::nullopt;
+  auto frame = read_of(file, facts_.frame);
+  if (frame && options_.between > 0) {
+    const auto next = read_next(file, facts_.frame);
+    if (!table_.ok()) return std::nullopt;
+    auto mixed = next ? between_frames(*std::move(frame), *next, options_.between)
+                      : Result<ParticleFrame>(*std::move(frame));
+    frame = kept(std::move(mixed));
   }
-  facts_.time = frame.value().time;
-  facts_.particles = frame.value().size();
-  return std::move(frame).value();
+  if (!frame) return std::nullopt;
+  facts_.time = frame->time;
+  facts_.particles = frame->size();
+  return frame;
+}
+
+/// The value, or nothing if its error is reported.
+std::optional<ParticleFrame> ParticleTable::kept(Result<ParticleFrame> frame) {
+  if (frame) return std::move(frame).value();
+  report_file(frame.error());
+  return std::nullopt;
+}
+
+std::optional<ParticleFrame> ParticleTable::read_of(ParticleFile& file, std::size_t frame) {
+  return kept(file.read(static_cast<long>(frame), options_.parallel_for));
+}
+
+/// The next frame of a series; nothing if there is none.
+std::optional<ParticleFrame> ParticleTable::read_next(ParticleFile& file, std::size_t frame) {
+  if (is_of_series(file)) return read_of(file, std::min(frame + 1, file.frames() - 1));
+  if (!options_.frame || !has_frame_slot(keys_.written)) return std::nullopt;
+  const std::string name = frame_name(keys_.written, *options_.frame + 1);
+  const std::shared_ptr<ParticleFile> other = open(name, table_.file_path(name));
+  const auto number = other ? choose_frame(*other) : std::nullopt;
+  return number ? read_of(*other, *number) : std::nullopt;
+}
+
+/// Whether the number of the series is that of a frame in the file.
+bool ParticleTable::is_of_series(const ParticleFile& file) const {
+  return !keys_.frame && options_.frame && file.frames() > 1 && !has_frame_slot(keys_.written);
 }
 
 /// Reads the file once more, to say in which line a radius is that cannot be used; none, if the
@@ -218,9 +258,7 @@ Status ParticleTable::find_wrong_radius() const {
 /// The frame that the keys or the series ask for, from 0.
 std::optional<std::size_t> ParticleTable::choose_frame(const ParticleFile& file) {
   const std::size_t frames = file.frames();
-  const bool of_series =
-      !keys_.frame && options_.frame && frames > 1 && !has_frame_slot(keys_.written);
-  const long asked = of_series ? *options_.frame : keys_.frame.value_or(-1);
+  const long asked = is_of_series(file) ? *options_.frame : keys_.frame.value_or(-1);
   const long count = static_cast<long>(frames);
   if (asked >= -count && asked < count) {
     return static_cast<std::size_t>(asked < 0 ? asked + count : asked);

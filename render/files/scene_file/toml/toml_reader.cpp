@@ -234,7 +234,9 @@ Result<LoadedScene> read_toml(std::string_view text, const std::string& path,
 Result<LoadedScene> read_toml_tree(TomlValue root, const std::string& path,
                                    const SceneFileOptions& options) {
   FirstError error(path);
-  const auto motion = apply_camera_keys(std::get<TomlMembers>(root.data), options.frame, error);
+  std::optional<double> frame = options.frame;
+  if (frame) *frame += options.between;
+  const auto motion = apply_camera_keys(std::get<TomlMembers>(root.data), frame, error);
   if (!error.status()) return error.status().error();
   return TomlReader(root, path, options, motion ? &*motion : nullptr).read();
 }

@@ -279,6 +279,20 @@ void TomlTable::read(std::string_view key, std::vector<std::string>& out) {
 std::size_t TomlTable::choose(std::string_view key, std::span<const std::string_view> names) {
   std::string name{names[0]};
   read(key, name);
+  return index_of(key, name, names);
+}
+
+std::vector<std::size_t> TomlTable::choose_some(std::string_view key,
+                                                std::span<const std::string_view> names) {
+  std::vector<std::string> some;
+  read(key, some);
+  std::vector<std::size_t> indices;
+  for (const std::string& name : some) indices.push_back(index_of(key, name, names));
+  return indices;
+}
+
+std::size_t TomlTable::index_of(std::string_view key, const std::string& name,
+                                std::span<const std::string_view> names) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   const std::vector<std::string_view> known(names.begin(), names.end());

@@ -68,6 +68,9 @@ class TomlTable {
 
   /// The index in `names` of the name under `key`; 0 if it is absent.
   std::size_t choose(std::string_view key, std::span<const std::string_view> names);
+  /// The same for an array of names; none if it is absent.
+  std::vector<std::size_t> choose_some(std::string_view key,
+                                       std::span<const std::string_view> names);
 
   /// The table under `key`, or nothing.
   std::optional<TomlTable> table(std::string_view key);
@@ -120,6 +123,8 @@ class TomlTable {
   [[nodiscard]] TomlTable inner(const TomlMembers& members, TextPlace place,
                                 std::string path) const;
   [[nodiscard]] std::string path_of(std::string_view key) const;
+  std::size_t index_of(std::string_view key, const std::string& name,
+                       std::span<const std::string_view> names);
   template <class Number>
   void read_vector(std::string_view key, Vec3<Number>& out);
   void report_type(const TomlValue& value, std::string_view key, const std::string& expected);

@@ -135,6 +135,41 @@ TEST(Overlay, BarMarksWhatLiesBeyond) {
   EXPECT_EQ(corners(), 2U);
 }
 
+TEST(Overlay, BarNamesItsUnit) {
+  ParticleColors::Scale scale{"bfactor", ColorMap({{255, 0, 0}, {0, 0, 255}}), {0, 10}};
+  EXPECT_EQ(legend_title(scale), "bfactor");
+  scale.unit = column_unit("pdb", "bfactor");
+  EXPECT_EQ(legend_title(scale), "bfactor (\u00c5\u00b2)");
+  EXPECT_EQ(column_unit("gro", "|v|"), "nm/ps");
+  EXPECT_EQ(column_unit("pqr", "charge"), "e");
+  EXPECT_EQ(column_unit("dump", "x"), "");
+}
+
+TEST(Overlay, LegendHasRoom) {
+  OverlayFacts facts = facts_of({OverlayPart::legend}, 1);
+  // Two letters, a dot, the edge and what is between: 10 + 10 + 7 + 8 points of 288, less the
+  // margin.
+  EXPECT_NEAR(legend_room(facts, 288, 216, 0.05), 35.0 / 288 - 0.05, 0.01);
+  facts.colors[0].species[0].name = std::string(80, 'x');
+  EXPECT_EQ(legend_room(facts, 288, 216, 0.05), 0.4);
+  facts.colors.clear();
+  EXPECT_EQ(legend_room(facts, 288, 216, 0.05), 0);
+  EXPECT_EQ(legend_room(facts_of({OverlayPart::scale}, 1), 288, 216, 0.05), 0);
+}
+
+TEST(Overlay, LabelsStandOnOrBesideParticles) {
+  OverlayFacts facts;
+  facts.pixels_per_point = 2;
+  facts.labels = {
+      {200, 100, 40, 1, 1, "ALA"}, {100, 300, 2, 2, 1, "GLY"}, {104, 304, 2, 3, 1, "VAL"}};
+  const Drawing drawing = drawn(facts, 576, 432, 255);
+  ASSERT_EQ(drawing.size(), 2U);  // the farthest would cover another one
+  EXPECT_EQ(text_item(drawing, "ALA").points[0].x, 100 - fixed_width("ALA", overlay_text) / 2);
+  EXPECT_DOUBLE_EQ(text_item(drawing, "ALA").points[0].y, 50);
+  EXPECT_GT(text_item(drawing, "GLY").points[0].x, 51);
+  EXPECT_LT(text_item(drawing, "GLY").points[0].y, 149);
+}
+
 TEST(Overlay, TextsAreUtf8) {
   EXPECT_EQ(drawable("\u00c5 \xff\x01\xc3"), "\u00c5 ???");
   EXPECT_EQ(drawable("\xed\xa0\x80"), "???");

@@ -308,7 +308,7 @@ def test_a_picture_that_cannot_be_written(ball, tmp_path):
 def test_overlays_are_drawn_where_pictures_are_shown(tmp_path):
     file = tmp_path / "salt.xyz"
     file.write_text("2\nProperties=species:S:1:pos:R:3\nNa 0 0 0\nCl 2.8 0 0\n")
-    options = {"size": (320, 240), "quick": True}
+    options = {"size": (320, 240), "quick": True, "margin": 0.3}
     plain = boule.render(file, **options)
     drawn = boule.render(file, overlay=["legend", "scale"], **options)
     assert np.array_equal(np.asarray(plain), np.asarray(drawn))
@@ -321,3 +321,13 @@ def test_overlays_are_drawn_where_pictures_are_shown(tmp_path):
     drawn.save(tmp_path / "a.exr")
     with pytest.raises(boule.Error, match="did you mean 'legend'"):
         boule.render(file, overlay="lgend", **options)
+    labelled = boule.render(file, labels="x > 0", label_text="species", **options)
+    labelled.save(tmp_path / "b.svg")
+    assert ">Cl</text>" in (tmp_path / "b.svg").read_text()
+    scene = boule.load(file, quick=True, margin=0.3)
+    scene.image.overlay = ["scale"]
+    asked = boule.render(scene, size=(320, 240))
+    scale = boule.render(scene, size=(320, 240), overlay="scale")
+    assert np.array_equal(asked.to_srgb(), scale.to_srgb())
+    none = boule.render(scene, size=(320, 240), overlay=[])
+    assert np.array_equal(none.to_srgb(), plain.to_srgb())

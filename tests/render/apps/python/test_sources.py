@@ -225,6 +225,10 @@ def test_frames_of_a_trajectory(movie, tmp_path):
         told = (tmp_path / f"f.{number}.exr").read_bytes()
         assert (tmp_path / "one.exr").read_bytes() == told
     assert len(list(boule.frames(movie, range(0, 3, 2)))) == 2
+    places = [scene.spheres[0].centers[1, 0] for scene in boule.frames(movie, interpolate=2)]
+    assert places == [1, 1.5, 2, 3, 4]
+    with pytest.raises(boule.Error, match="without a step"):
+        boule.frames(movie, range(0, 3, 2), interpolate=2)
     last = boule.load(movie)
     assert np.array_equal(pixels(boule.load(movie, frame=2)), pixels(last))
     assert not np.array_equal(pixels(boule.load(movie, frame=0)), pixels(last))

@@ -61,6 +61,59 @@ TEST(Radii, AreVanDerWaalsOfElements) {
   EXPECT_EQ(source_of(frame), "van der Waals radii, in nm");
 }
 
+ParticleFrame periodic(const std::vector<std::string>& species) {
+  ParticleFrame frame = row_of(species);
+  frame.cell = ParticleCell{{9, 0, 0}, {0, 9, 0}, {0, 0, 9}, {}, {true, true, true}};
+  return frame;
+}
+
+TEST(Radii, AreIonicOfSaltsAndOxides) {
+  const ParticleFrame salt = periodic({"Na", "Cl"});
+  EXPECT_EQ(radii_of(salt), (Radii{1.02F, 1.81F}));
+  EXPECT_EQ(source_of(salt), "ionic radii, in angstrom");
+  EXPECT_THAT(notes_of(salt),
+              HasSubstr("as of salts and oxides (\"vdw\" for van der Waals radii)"));
+  EXPECT_EQ(radii_of(salt, {.radius = RadiusTable::vdw}), (Radii{2.5F, 1.82F}));
+  EXPECT_EQ(source_of(periodic({"Sr", "Ti", "O", "O", "O"})), "ionic radii, in angstrom");
+  EXPECT_EQ(source_of(periodic({"Cu", "Cu", "O"})), "ionic radii, in angstrom");
+  ParticleStyle sticks;
+  sticks.shape = ParticleShape::balls_and_sticks;
+  EXPECT_EQ(source_of(salt, sticks), "0.23 of van der Waals radii, in angstrom");
+}
+
+TEST(Radii, AreIonicOfNothingElse) {
+  const std::string usual = "van der Waals radii, in angstrom";
+  const std::vector<std::vector<std::string>> others{{"Cu", "Cu"},
+                                                     {"Cu", "Cu", "Cu", "O"},
+                                                     {"C", "O", "O"},
+                                                     {"Na", "Cl", "H"},
+                                                     {"Ar", "O"},
+                                                     {"Na", "Cl", "Cl", "X"},
+                                                     {"Si", "O", "O"},
+                                                     {"Mo", "S", "S"},
+                                                     {"Na", "N", "O", "O", "O"}};
+  for (const std::vector<std::string>& species : others)
+    EXPECT_EQ(source_of(periodic(species)), usual) << species[0] << species[1];
+  ParticleFrame slab = periodic({"Na", "Cl"});
+  slab.cell->periodic[2] = false;
+  EXPECT_EQ(source_of(slab), usual);
+  EXPECT_EQ(source_of(row_of({"Na", "Cl"})), usual);
+}
+
+TEST(Radii, AreIonicOfWholeSeriesOnly) {
+  const auto own_of = [](const ParticleFrame& frame) {
+    return ParticleSpheres::make(frame, {}).value().own_choices();
+  };
+  const ParticleFrame salt = periodic({"Na", "Cl"}), metal = periodic({"Na", "Na"});
+  ParticleChoices salts, both;
+  for (const ParticleFrame& frame : {salt, salt}) salts.add(own_of(frame));
+  for (const ParticleFrame& frame : {salt, metal}) both.add(own_of(frame));
+  EXPECT_FALSE(salts.radii_differ);
+  EXPECT_TRUE(both.radii_differ);
+  EXPECT_EQ(source_of(salt, {.chosen = &salts}), "ionic radii, in angstrom");
+  EXPECT_EQ(source_of(salt, {.chosen = &both}), "van der Waals radii, in angstrom");
+}
+
 TEST(Radii, AreThoseGivenForSpecies) {
   const ParticleFrame frame = row_of({"Na", "bead", "Cl"});
   const std::vector<KindRadius> given{{"na", 1.02}, {"bead", 3}};

@@ -61,6 +61,8 @@ const Refusal fitted[] = {
      7, "camera.fov", "an orthographic camera has none"},
     {"HalfMargin", scene("[camera]\nfit = true\nmargin = 0.5\n"), 4, 10, "camera.margin",
      "must be"},
+    {"NoPictureLeft", scene("[camera]\nfit = true\nmargin = 0.3\nroom = 0.4\n"), 5, 8,
+     "camera.room", "must leave some of the picture"},
     {"NoDirection", scene("[camera]\nfit = true\ndirection = [0, 0, 0]\n"), 4, 13,
      "camera.direction", "must not be the zero vector"},
     {"UpAlongDirection", scene("[camera]\nfit = true\ndirection = [0, 0, -1]\nup = [0, 0, 1]\n"), 5,
@@ -69,6 +71,16 @@ const Refusal fitted[] = {
      "did you mean 'margin'?"},
 };
 INSTANTIATE_TEST_SUITE_P(Fitted, TomlErrors, testing::ValuesIn(fitted), test::refusal_name);
+
+const Refusal overlays[] = {
+    {"OverlaySlip", scene("[image]\noverlay = [\"scale\", \"lgend\"]\n"), 3, 11, "image.overlay",
+     "unknown 'lgend', expected 'legend', 'scale', 'axes' or 'time'; did you mean 'legend'?"},
+    {"OverlayTwice", scene("[image]\noverlay = [\"scale\", \"scale\"]\n"), 3, 11, "image.overlay",
+     "must have each name once"},
+    {"OverlayText", scene("[image]\noverlay = \"scale\"\n"), 3, 11, "image.overlay",
+     "expected an array"},
+};
+INSTANTIATE_TEST_SUITE_P(Overlays, TomlErrors, testing::ValuesIn(overlays), test::refusal_name);
 
 const Refusal syntax[] = {
     {"Garbage", scene("[image]\nspp = = 1\n"), 3, 7, "image.spp", "not valid TOML"},

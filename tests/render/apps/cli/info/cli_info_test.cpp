@@ -58,6 +58,7 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("filter"), "box");
   EXPECT_EQ(found.at("transparent"), false);
   EXPECT_EQ(found.at("outline"), 0);
+  EXPECT_EQ(found.at("overlay"), json::array());
   EXPECT_EQ(found.at("data_files"), json::array());
   EXPECT_EQ(found.at("first_spheres"),
             json::parse(R"([{"center": [0, 1, 0], "radius": 1, "material": "shiny"}])"));
@@ -68,7 +69,7 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("first_instances"), json::array());
   EXPECT_EQ(found.at("warnings"), json::array());
   EXPECT_EQ(found.at("notes"), json::array());
-  EXPECT_EQ(found.size(), 34u);
+  EXPECT_EQ(found.size(), 35u);
 }
 
 TEST_F(Info, WhatInstancesShowIsCountedAndFramed) {

@@ -70,6 +70,11 @@ class FieldMaker {
     const auto name = [](std::size_t i) { return '"' + std::string(names<Enum>[i]) + '"'; };
     fields.push_back({std::move(key), name(0), name(1)});
   }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void add(std::string key, const TypeRule&, std::type_identity<std::vector<Enum>>) {
+    fields.push_back({std::move(key), "[]", "[\"" + std::string(names<Enum>[0]) + "\"]"});
+  }
   template <class Member>
   void add(const std::string&, const FileRule&, std::type_identity<Member>) {}
 

@@ -45,17 +45,18 @@ class Overlays : public ParticlesTest {
 
 TEST_F(Overlays, ChangeTheirCornersOnly) {
   const std::string file = water();
-  draw(file, "plain.ppm", {});
+  const std::vector<std::string> wide{"--margin", "0.3"};  // so that no camera makes room
+  draw(file, "plain.ppm", wide);
   const auto all = [&](const std::string& name) {
     return differing("plain.ppm", name, 0, 0, width, height);
   };
-  draw(file, "legend.ppm", {"--overlay", "legend"});
+  draw(file, "legend.ppm", {"--overlay", "legend", "--margin", "0.3"});
   EXPECT_GT(all("legend.ppm"), 100);
   EXPECT_EQ(all("legend.ppm"), differing("plain.ppm", "legend.ppm", 260, 0, width, 80));
-  draw(file, "scale.ppm", {"--overlay", "scale"});
+  draw(file, "scale.ppm", {"--overlay", "scale", "--margin", "0.3"});
   EXPECT_GT(all("scale.ppm"), 100);
   EXPECT_EQ(all("scale.ppm"), differing("plain.ppm", "scale.ppm", 160, 190, width, height));
-  draw(file, "axes.ppm", {"--overlay", "axes"});
+  draw(file, "axes.ppm", {"--overlay", "axes", "--margin", "0.3"});
   EXPECT_GT(all("axes.ppm"), 100);
   EXPECT_EQ(all("axes.ppm"), differing("plain.ppm", "axes.ppm", 0, 140, 100, height));
 }
@@ -92,6 +93,63 @@ TEST_F(Overlays, OfPagesAreTextAndVectors) {
   EXPECT_TRUE(read("a.pdf") == read("b.pdf"));
 }
 
+TEST_F(Overlays, ScenesAskForThem) {
+  const std::string file = water();
+  draw(file, "option.ppm", {"--overlay", "axes,scale"});
+  scene_of(file, {"--quick"});
+  std::string scene = read("made.toml");
+  scene.replace(scene.find("[image]\n"), 8, "[image]\noverlay = [\"axes\", \"scale\"]\n");
+  const std::string made = write("overlay.toml", scene);
+  const auto render = [&](const std::string& picture, std::vector<std::string> options) {
+    options.insert(options.begin(), {"render", made, "-o", path(picture), "--size", "320x240"});
+    const ProgramRun run = boule_run(options);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    return run.err;
+  };
+  EXPECT_THAT(render("key.ppm", {}), HasSubstr("the scale bar is right at"));
+  EXPECT_TRUE(read("key.ppm") == read("option.ppm"));
+  render("none.ppm", {"--overlay", "none"});
+  draw(file, "plain.ppm", {});
+  EXPECT_TRUE(read("none.ppm") == read("plain.ppm"));
+  EXPECT_THAT(render("key.exr", {}), HasSubstr("nothing is drawn on colours before tone mapping"));
+}
+
+TEST_F(Overlays, LegendsHaveRoomBesideParticles) {
+  const std::string file = water();
+  const std::vector<std::string> wide{"--view", "-z", "--up", "y", "--scale", "3"};
+  std::vector<std::string> options = wide;
+  options.insert(options.end(), {"--overlay", "legend"});
+  draw(file, "legend.ppm", options);
+  options.back() = "none";
+  draw(file, "none.ppm", options);
+  EXPECT_GT(differing("none.ppm", "legend.ppm", 0, 0, 160, height), 100);  // it stands more left
+  // Nothing is below the legend's colours at the right edge.
+  const std::string picture = read("legend.ppm");
+  const std::size_t head = picture.size() - std::size_t{3} * width * height;
+  for (int y = 80; y < height; ++y) {
+    const std::size_t at = head + 3 * static_cast<std::size_t>(y * width + width - 20);
+    EXPECT_EQ(picture.substr(at, 3), "\xff\xff\xff") << y;
+  }
+}
+
+TEST_F(Overlays, LabelsAreOfWhatIsSeen) {
+  // The second is behind the first.
+  const std::string file =
+      write("three.xyz", "3\nProperties=species:S:1:pos:R:3\nC 0 0 0\nN 0 0 -9\nO 9 0 0\n");
+  const auto texts = [&](const std::vector<std::string>& options) {
+    std::vector<std::string> all{"--view", "-z", "--up", "y", "--ortho", "--radius", "1"};
+    all.insert(all.end(), options.begin(), options.end());
+    draw(file, "a.svg", all);
+    return read("a.svg");
+  };
+  EXPECT_THAT(texts({}), Not(HasSubstr("<text")));
+  EXPECT_THAT(texts({"--labels", "x >= 0"}),
+              AllOf(HasSubstr(">C</text>"), HasSubstr(">O</text>"), Not(HasSubstr(">N</text>"))));
+  EXPECT_THAT(texts({"--labels", "species == 'O'", "--label-text", "x,species"}),
+              AllOf(HasSubstr(">9 O</text>"), Not(HasSubstr(">C</text>"))));
+  EXPECT_THAT(texts({"--labels", "x >= 0", "--select", "species != 'C'"}), HasSubstr(">N</text>"));
+}
+
 TEST_F(Overlays, AreRefusedWhereTheyCannotBe) {
   const std::string file = water();
   const auto refused = [&](const std::string& picture, const std::vector<std::string>& options) {
@@ -103,6 +161,8 @@ TEST_F(Overlays, AreRefusedWhereTheyCannotBe) {
   EXPECT_THAT(refused("a.exr", {"--overlay", "scale"}), HasSubstr("before tone mapping"));
   EXPECT_THAT(refused("a.film", {"--overlay", "scale", "--shard", "1/2"}),
               HasSubstr("finished pictures"));
+  EXPECT_THAT(refused("a.exr", {"--labels", "x > 0"}),
+              AllOf(HasSubstr("--labels"), HasSubstr("before tone mapping")));
   EXPECT_THAT(refused("a.svg", {"--skip-existing"}), HasSubstr("cannot be read back"));
 }
 
