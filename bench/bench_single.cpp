@@ -1,5 +1,6 @@
 // One ray a call: nanoseconds of Tracer::closest(const Ray&) and Tracer::any(const Ray&) beside
-// Embree's rtcIntersect1 and rtcOccluded1 on its built-in spheres, interleaved in one run; medians.
+// Embree's rtcIntersect1 and rtcOccluded1 on its built-in spheres, interleaved in one run: the
+// least thread CPU time of all repetitions.
 //
 //   bench_single [scene...]
 //
@@ -9,6 +10,7 @@
 // printed.
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -17,8 +19,7 @@
 
 #include "bench/scenes/bench_scenes.h"
 #include "bench/scenes/ray_kinds.h"
-#include "bench/tools/median.h"
-#include "bench/tools/wall_seconds.h"
+#include "bench/tools/thread_seconds.h"
 #include "core/math/geometry.h"
 #include "render/renderer/tracer.h"
 
@@ -102,10 +103,9 @@ std::vector<Ray> chords(const BenchScene& scene) {
 
 /// Nanoseconds of answer(ray) for each ray.
 double nanoseconds(const std::vector<Ray>& rays, const auto& answer) {
-  const double seconds = wall_seconds([&] {
-    for (const Ray& ray : rays) answer(ray);
-  });
-  return seconds * 1e9 / static_cast<double>(rays.size());
+  const double begin = thread_seconds();
+  for (const Ray& ray : rays) answer(ray);
+  return (thread_seconds() - begin) * 1e9 / static_cast<double>(rays.size());
 }
 
 struct Times {
@@ -113,7 +113,8 @@ struct Times {
 };
 
 void print(const std::string& what, const Times& times, std::size_t others) {
-  const double ours = median(times.ours), theirs = median(times.theirs);
+  const double ours = *std::min_element(times.ours.begin(), times.ours.end());
+  const double theirs = *std::min_element(times.theirs.begin(), times.theirs.end());
   std::printf("%-28s Boule %7.0f ns  Embree %7.0f ns  Embree / Boule %.2f  other answers %zu\n",
               what.c_str(), ours, theirs, theirs / ours, others);
 }

@@ -10,6 +10,26 @@ ArrivalOf<double> arrive(const Ray& ray, const Hit& hit) {
   return {ray.org, dir, ray.org + dir * hit.t, hit.id == ray.source, ray.tmin == 0};
 }
 
+ContactOf<double> meet(const Sphere& sphere, const ArrivalOf<double>& ray) {
+  return meet_sphere(ray, vec_cast<double>(sphere.center), double{sphere.radius});
+}
+ContactOf<double> meet(const Plane& plane, const ArrivalOf<double>& ray) {
+  return meet_plane(ray, vec_cast<double>(plane.point), vec_cast<double>(plane.normal));
+}
+ContactOf<double> meet(const Capsule& capsule, const ArrivalOf<double>& ray) {
+  const Vec3d a = vec_cast<double>(capsule.a);
+  return meet_capsule(ray, a, vec_cast<double>(capsule.b) - a, double{capsule.radius});
+}
+
+/// facing_normal(), which seldom needs the view.
+template <class Primitive>
+Vec3d normal_of(const Primitive& primitive, const Ray& ray, const Hit& hit) {
+  const auto arrival = arrive(ray, hit);
+  const auto contact = meet(primitive, arrival);
+  if (all_finite(contact.outward)) return turned_normal(contact);
+  return facing_normal(contact, normalize(arrival.dir));
+}
+
 Surface surface_of(const ArrivalOf<double>& ray, const ContactOf<double>& contact, const Hit& hit,
                    bool solid) {
   const Vec3d view = normalize(ray.dir), normal = facing_normal(contact, view);
@@ -29,21 +49,27 @@ Surface surface_of(const ArrivalOf<double>& ray, const ContactOf<double>& contac
 
 Surface find_surface(const Sphere& sphere, const Ray& ray, const Hit& hit) {
   const auto arrival = arrive(ray, hit);
-  const auto contact = meet_sphere(arrival, vec_cast<double>(sphere.center), double{sphere.radius});
-  return surface_of(arrival, contact, hit, true);
+  return surface_of(arrival, meet(sphere, arrival), hit, true);
 }
 
 Surface find_surface(const Plane& plane, const Ray& ray, const Hit& hit) {
   const auto arrival = arrive(ray, hit);
-  const auto contact =
-      meet_plane(arrival, vec_cast<double>(plane.point), vec_cast<double>(plane.normal));
-  return surface_of(arrival, contact, hit, false);
+  return surface_of(arrival, meet(plane, arrival), hit, false);
 }
 
 Surface find_surface(const Capsule& capsule, const Ray& ray, const Hit& hit) {
   const auto arrival = arrive(ray, hit);
-  const Vec3d a = vec_cast<double>(capsule.a), u = vec_cast<double>(capsule.b) - a;
-  return surface_of(arrival, meet_capsule(arrival, a, u, double{capsule.radius}), hit, true);
+  return surface_of(arrival, meet(capsule, arrival), hit, true);
+}
+
+Vec3d find_normal(const Sphere& sphere, const Ray& ray, const Hit& hit) {
+  return normal_of(sphere, ray, hit);
+}
+Vec3d find_normal(const Plane& plane, const Ray& ray, const Hit& hit) {
+  return normal_of(plane, ray, hit);
+}
+Vec3d find_normal(const Capsule& capsule, const Ray& ray, const Hit& hit) {
+  return normal_of(capsule, ray, hit);
 }
 
 Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> planes, const Ray& ray,

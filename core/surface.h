@@ -38,6 +38,11 @@ Surface find_surface(const Capsule& capsule, const Ray& ray, const Hit& hit);
 Surface find_surface(std::span<const Sphere> spheres, std::span<const Plane> planes, const Ray& ray,
                      const Hit& hit);
 
+/// Surface::normal by itself.
+Vec3d find_normal(const Sphere& sphere, const Ray& ray, const Hit& hit);
+Vec3d find_normal(const Plane& plane, const Ray& ray, const Hit& hit);
+Vec3d find_normal(const Capsule& capsule, const Ray& ray, const Hit& hit);
+
 /// The start of a ray that leaves the surface, with the source for the solver.
 struct Departure {
   Vec3d org;            ///< the surface's point, moved off it

@@ -28,6 +28,7 @@ Tracer::Tracer(Scene scene, const std::optional<std::vector<ShownGroup>>& groups
     : options_(options),
       kernels_(&kernels),
       geometry_(geometry_of(scene, groups, Scheduler(options.threads).parallel_for())),
+      view_(geometry_.view()),
       built_cost_(geometry_.cost()),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
@@ -68,7 +69,7 @@ Result<Tracer> Tracer::create_from(AnyScene&& scene, const TraceOptions& options
   });
 }
 
-TraceTarget Tracer::target() const { return {*kernels_, geometry_, options_.solver}; }
+TraceTarget Tracer::target() const { return {*kernels_, geometry_, view_, options_.solver}; }
 
 Status Tracer::closest(std::span<const Ray> rays, std::span<TracedHit> hits) {
   const auto body = [&](TraceWorker& worker, std::size_t first) {

@@ -184,6 +184,7 @@ class Tracer {
   TraceOptions options_;
   const KernelTable* kernels_;
   Geometry geometry_;
+  GeometryView view_;      ///< of geometry_
   double built_cost_ = 0;  ///< of its tree when it was built
   Scheduler scheduler_;
   std::vector<std::unique_ptr<TraceWorker>> workers_;

@@ -107,7 +107,7 @@ inline RayStream part(const RayStream& rays, std::size_t first, std::size_t size
 
 /// The ray at these places of a stream or of other RayArrays. Precondition: the places are valid.
 template <class Rays>
-Ray get_ray(const Rays& rays, const RayPlaces& at) {
+BOULE_INLINE Ray get_ray(const Rays& rays, const RayPlaces& at) {
   Ray ray{{rays.org_x[at.org], rays.org_y[at.org], rays.org_z[at.org]},
           {rays.dir_x[at.dir], rays.dir_y[at.dir], rays.dir_z[at.dir]}};
   ray.tmin = double{rays.tmin[at.start]};
@@ -116,7 +116,7 @@ Ray get_ray(const Rays& rays, const RayPlaces& at) {
   ray.inside = rays.inside[at.start] != 0;
   return ray;
 }
-inline Ray get_ray(const RayStream& rays, std::size_t i) { return get_ray(rays, rays.places(i)); }
+BOULE_INLINE Ray get_ray(const RayStream& rays, std::size_t i) { return get_ray(rays, rays.places(i)); }
 
 /// Nearest hits, one per ray: t in double, unrounded, and the primitive's id; inf and -1 for a
 /// miss. For a sphere, `slot` is its slot in the geometry, for a capsule that among the capsules;

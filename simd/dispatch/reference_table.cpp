@@ -148,6 +148,8 @@ const KernelTable& reference_kernels() {
     KernelTable made = *select_kernels("scalar").value();
     made.closest_hit = closest_hit;
     made.any_hit = any_hit;
+    made.closest_of_ray = [](const GeometryView&, const Ray&, Hit&) { return false; };
+    made.any_of_ray = [](const GeometryView&, const Ray&, bool&) { return false; };
     made.find_chords = find_chords;
     return made;
   }();

@@ -66,7 +66,7 @@ class Geometry {
   /// The spheres by id. Precondition: owns_spheres().
   [[nodiscard]] std::vector<Sphere> spheres() const;
 
-  /// The view for the kernels; valid as long as this object lives and is not moved from.
+  /// The view for the kernels; valid until this object, or the one that it is moved to, changes.
   [[nodiscard]] GeometryView view() const;
 
   /// The number of spheres it was built of; planes have the ids from there on.

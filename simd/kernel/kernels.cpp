@@ -103,6 +103,17 @@ void any_hit(const GeometryView& geometry, const RayStream& rays, const Query& q
   if (geometry.capsules.slots != 0) trace_capsules(geometry.capsules, rays, query, occluded);
 }
 
+/// Whether the rays of a geometry may go without a stream.
+bool has_one_part(const GeometryView& geometry) {
+  return geometry.parts.size == 0 && geometry.capsules.slots == 0;
+}
+bool hit_of_ray(const GeometryView& geometry, const Ray& ray, Hit& hit) {
+  return has_one_part(geometry) && closest_of_ray(geometry, ray, hit);
+}
+bool ray_hits(const GeometryView& geometry, const Ray& ray, bool& met) {
+  return has_one_part(geometry) && any_of_ray(geometry, ray, met);
+}
+
 // The functions of the table. The functions that these call are always inlined and have no address.
 
 void camera_rays(const CameraView& camera, const SampleStream& samples, const RayStream& rays) {
@@ -172,6 +183,8 @@ const KernelTable kernel_table = {Isa::BOULE_KERNEL_ISA,
                                   camera_rays,
                                   closest_hit,
                                   any_hit,
+                                  hit_of_ray,
+                                  ray_hits,
                                   chords_of_rays,
                                   surfaces_of_hits,
                                   shadow_rays,

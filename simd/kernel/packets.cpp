@@ -36,8 +36,8 @@ BOULE_INLINE void for_each_group(const PaddedStream& stream, std::size_t begin, 
   }
 }
 
-/// Stores the hit of one ray: the nearest over the lanes; at equal t, the lower id.
-BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, std::size_t index) {
+/// The hit of one ray: the nearest over the lanes; at equal t, the lower id.
+BOULE_INLINE Hit single_hit(const ClosestHit& best) {
   alignas(64) double t[width];
   alignas(64) std::int32_t id[width];
   alignas(64) std::uint32_t slot[width];
@@ -49,9 +49,18 @@ BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, st
     const bool tie = t[lane] == t[nearest] && is_lower(id[lane], id[nearest]);
     if (t[lane] < t[nearest] || tie) nearest = lane;
   }
-  hits.t[index] = t[nearest];
-  hits.id[index] = id[nearest];
-  hits.slot[index] = slot[nearest];
+  return {t[nearest], id[nearest], slot[nearest]};
+}
+BOULE_INLINE void put(const HitStream& hits, std::size_t index, const Hit& hit) {
+  hits.t[index] = hit.t;
+  hits.id[index] = hit.id;
+  hits.slot[index] = hit.slot;
+}
+BOULE_INLINE void put(std::uint8_t* met, std::size_t index, bool is_met) {
+  met[index] = is_met ? 1 : 0;
+}
+BOULE_INLINE void store_single(const ClosestHit& best, const HitStream& hits, std::size_t index) {
+  put(hits, index, single_hit(best));
 }
 
 /// Stores the answer of one ray: all lanes hold the same ray.
@@ -65,11 +74,13 @@ template <class Answers>
 struct BestOf {
   using Packet = ClosestHit;
   using Single = ClosestHit;
+  using One = Hit;
 };
 template <>
 struct BestOf<std::uint8_t*> {
   using Packet = AnyHit<false>;
   using Single = AnyHit<true>;
+  using One = bool;
 };
 
 /// Traces pairs of packets while there are any. Returns the number of nodes and leaves visited, and
@@ -100,53 +111,41 @@ BOULE_INLINE bool has_others(const GeometryView& geometry) {
 }
 /// Tests the spheres outside the leaves, and the planes. Returns the best of all lanes.
 template <class Best>
-BOULE_INLINE Best meet_others(const GeometryView& geometry, const RayStream& rays,
-                              std::size_t index) {
-  RayLanes ray;
-  load_single(rays, index, ray);
-  Best best(ray);
-  scan_spheres<OnePerLane>(ray, Solver::robust, geometry.spheres, best);
-  best.settle(geometry.spheres, ray);
-  scan_planes<OnePerLane>(ray, Solver::robust, geometry.planes, best);
+BOULE_INLINE Best meet_others(const GeometryView& geometry, const Ray& ray) {
+  RayLanes lanes;
+  load_single(ray, lanes);
+  Best best(lanes);
+  scan_spheres<OnePerLane>(lanes, Solver::robust, geometry.spheres, best);
+  best.settle(geometry.spheres, lanes);
+  scan_planes<OnePerLane>(lanes, Solver::robust, geometry.planes, best);
   return best;
 }
 
-BOULE_INLINE void go_alone(const GeometryView& geometry, const RayStream& rays, std::size_t index,
-                           LoneRay& ray, const HitStream& hits) {
-  Hit hit;
-  float reach = ray.end();
+BOULE_INLINE void go_alone(const GeometryView& geometry, const Ray& ray, LoneRay& lone, Hit& hit) {
+  float reach = lone.end();
   if (has_others(geometry)) {
-    const auto best = meet_others<ClosestHit>(geometry, rays, index);
-    store_single(best, hits, index);
-    hit = {hits.t[index], hits.id[index], hits.slot[index]};
+    const auto best = meet_others<ClosestHit>(geometry, ray);
+    hit = single_hit(best);
     reach = least_lane(best.reach);
   }
-  ray.find_nearest(reach, hit);
-  hits.t[index] = hit.t;
-  hits.id[index] = hit.id;
-  hits.slot[index] = hit.slot;
+  lone.find_nearest(reach, hit);
 }
-BOULE_INLINE void go_alone(const GeometryView& geometry, const RayStream& rays, std::size_t index,
-                           LoneRay& ray, std::uint8_t* met) {
-  bool meets = has_others(geometry) && meet_others<AnyHit<true>>(geometry, rays, index).done();
-  if (!meets) meets = ray.find_any(ray.end());
-  met[index] = meets ? 1 : 0;
+BOULE_INLINE void go_alone(const GeometryView& geometry, const Ray& ray, LoneRay& lone, bool& met) {
+  met = (has_others(geometry) && meet_others<AnyHit<true>>(geometry, ray).done()) ||
+        lone.find_any(lone.end());
 }
 
 /// Traces a ray as a LoneRay. Returns false if it cannot.
-template <class Answers>
-BOULE_INLINE bool try_alone(const GeometryView& geometry, const RayStream& rays, std::size_t index,
-                            Solver solver, const Answers& answers) {
-  if (solver != Solver::robust || geometry.bvh.size == 0) return false;
-  if (!(geometry.bvh.extent < filter::limit)) return false;
-  LoneRay ray(geometry, rays, index);
-  if (!ray.may()) return false;
-  go_alone(geometry, rays, index, ray, answers);
+template <class Answer>
+BOULE_INLINE bool try_alone(const GeometryView& geometry, const Ray& ray, Answer& answer) {
+  if (geometry.bvh.size == 0 || !(geometry.bvh.extent < filter::limit)) return false;
+  LoneRay lone(geometry, ray);
+  if (!lone.may()) return false;
+  go_alone(geometry, ray, lone, answer);
   return true;
 }
-template <class Answers>
-BOULE_INLINE bool try_alone(const PartsGeometry&, const RayStream&, std::size_t, Solver,
-                            const Answers&) {
+template <class Answer>
+BOULE_INLINE bool try_alone(const PartsGeometry&, const Ray&, Answer&) {
   return false;
 }
 
@@ -156,7 +155,11 @@ template <class Geometry, class Answers>
 void trace_alone(const Geometry& geometry, const RayStream& rays, Solver solver,
                  const Answers& answers) {
   for (std::size_t index = 0; index < rays.size; ++index) {
-    if (try_alone(geometry, rays, index, solver, answers)) continue;
+    typename BestOf<Answers>::One answer{};
+    if (solver == Solver::robust && try_alone(geometry, get_ray(rays, index), answer)) {
+      put(answers, index, answer);
+      continue;
+    }
     RayLanes ray;
     load_single(rays, index, ray);
     typename BestOf<Answers>::Single best(ray);
@@ -183,6 +186,13 @@ std::size_t trace_groups(const Geometry& geometry, const PaddedStream& stream, s
         store_single(best, answers, index);
       });
   return visits;
+}
+
+bool closest_of_ray(const GeometryView& geometry, const Ray& ray, Hit& hit) {
+  return try_alone(geometry, ray, hit);
+}
+bool any_of_ray(const GeometryView& geometry, const Ray& ray, bool& met) {
+  return try_alone(geometry, ray, met);
 }
 
 template void trace_alone(const GeometryView&, const RayStream&, Solver, const HitStream&);

@@ -43,31 +43,30 @@ bool enters(const Sphere& sphere, const Ray& ray, double t) {
   return is_nearer_to_enter(t, reference::find_chord(ray, sphere, false));
 }
 
-/// Whether a ray enters the primitive at this hit. Where the solver fast finds a hit of a line that
+/// Whether a ray enters the sphere that it hits. Where the solver fast finds a hit of a line that
 /// misses, it does not.
-bool enters(const TraceTarget& target, const Ray& ray, const Hit& hit) {
-  const Geometry& geometry = target.geometry;
+bool enters(const TraceTarget& target, const Sphere& sphere, const Ray& ray, const Hit& hit) {
   const bool leaves = hit.id == ray.source;
-  const bool is_sphere = static_cast<std::uint32_t>(hit.id) < geometry.sphere_count();
-  if (is_sphere && !leaves && target.solver != Solver::fast)
-    return enters(geometry.sphere(hit.slot), ray, hit.t);
-  if (geometry.is_plane(hit))
-    return is_nearer_to_enter(hit.t, reference::find_chord(ray, geometry.plane(hit.id), leaves));
-  if (geometry.is_capsule(hit)) {
-    const Capsule capsule = geometry.capsule(hit.slot);
-    return is_nearer_to_enter(hit.t, reference::find_chord(ray, capsule, leaves));
-  }
-  const Sphere sphere = geometry.sphere(hit.slot);
   if (!leaves && target.solver != Solver::fast) return enters(sphere, ray, hit.t);
   return is_nearer_to_enter(hit.t, reference::find_chord(ray, sphere, leaves));
 }
-
-/// The surface at which a ray hits: the same numbers as a kernel's.
-Surface surface_at(const Geometry& geometry, const Ray& ray, const Hit& hit) {
-  if (geometry.is_plane(hit)) return find_surface(geometry.plane(hit.id), ray, hit);
-  if (geometry.is_capsule(hit)) return find_surface(geometry.capsule(hit.slot), ray, hit);
-  return find_surface(geometry.sphere(hit.slot), ray, hit);
+bool enters(const TraceTarget&, const Plane& plane, const Ray& ray, const Hit& hit) {
+  return is_nearer_to_enter(hit.t, reference::find_chord(ray, plane, hit.id == ray.source));
 }
+bool enters(const TraceTarget&, const Capsule& capsule, const Ray& ray, const Hit& hit) {
+  return is_nearer_to_enter(hit.t, reference::find_chord(ray, capsule, hit.id == ray.source));
+}
+
+/// Calls visit(primitive) with the one that was hit.
+template <class Visit>
+auto visit_primitive(const Geometry& geometry, const Hit& hit, const Visit& visit) {
+  if (geometry.is_plane(hit)) return visit(geometry.plane(hit.id));
+  if (geometry.is_capsule(hit)) return visit(geometry.capsule(hit.slot));
+  return visit(geometry.sphere(hit.slot));
+}
+
+/// Whether a ray by itself may go without a stream.
+bool is_alone(const TraceTarget& target) { return target.solver == Solver::robust; }
 
 /// Whether a stream has this end of a ray as it is.
 bool is_float(double end) {
@@ -103,7 +102,7 @@ void TraceWorker::meet_closest(const TraceTarget& target) {
   if (hits_.size() != size()) hits_.resize(size());
   Query query{.solver = target.solver, .experience = &closest_};
   if (size() == 1) query.form = Form::single;
-  target.kernels.closest_hit(target.geometry.view(), rays_.view(), query, hits_.view());
+  target.kernels.closest_hit(target.view, rays_.view(), query, hits_.view());
   settle_ends(target);
 }
 
@@ -128,7 +127,7 @@ void TraceWorker::settle_ends(const TraceTarget& target) {
 
 std::size_t TraceWorker::find_surfaces(const TraceTarget& target, std::size_t first) {
   const std::size_t count = std::min(surface_block, size() - first);
-  target.kernels.find_surfaces(target.geometry.view(), part(rays_.view(), first, count),
+  target.kernels.find_surfaces(target.view, part(rays_.view(), first, count),
                                part(hits_.view(), first, count), surfaces_.stream());
   return count;
 }
@@ -137,21 +136,31 @@ TracedHit TraceWorker::traced(const TraceTarget& target, std::size_t k, std::siz
   const Hit hit = hits_.get(k);
   if (hit.id == no_primitive) return {};
   return {hit.t, hit.id, vec_cast<float>(surfaces_.normal.get(surface)),
-          enters(target, rays_.get(k), hit)};
+          visit_primitive(target.geometry, hit, [&](const auto& primitive) {
+            return enters(target, primitive, rays_.get(k), hit);
+          })};
 }
 
 TracedHit TraceWorker::find_closest(const TraceTarget& target, const Ray& ray) {
-  start(1);
-  set(0, ray);
-  meet_closest(target);
-  const Hit hit = hits_.get(0);
+  Hit hit;
+  if (!is_alone(target) || !target.kernels.closest_of_ray(target.view, ray, hit)) {
+    start(1);
+    set(0, ray);
+    meet_closest(target);
+    hit = hits_.get(0);
+  }
   if (hit.id == no_primitive) return {};
-  const Ray met = rays_.get(0);
-  return {hit.t, hit.id, vec_cast<float>(surface_at(target.geometry, met, hit).normal),
-          enters(target, met, hit)};
+  Ray met = ray;
+  met.tmin = double{float_below(ray.tmin)};  // as in streams
+  return visit_primitive(target.geometry, hit, [&](const auto& primitive) {
+    return TracedHit{hit.t, hit.id, vec_cast<float>(find_normal(primitive, met, hit)),
+                     enters(target, primitive, met, hit)};
+  });
 }
 
 bool TraceWorker::find_any(const TraceTarget& target, const Ray& ray) {
+  bool met = false;
+  if (is_alone(target) && target.kernels.any_of_ray(target.view, ray, met)) return met;
   start(1);
   set(0, ray);
   return find_any(target)[0] != 0;
@@ -163,7 +172,7 @@ const std::uint8_t* TraceWorker::find_any(const TraceTarget& target) {
   met_.resize(size());
   Query query{.solver = target.solver, .experience = &any_};
   if (size() == 1) query.form = Form::single;
-  target.kernels.any_hit(target.geometry.view(), rays_.view(), query, met_.data());
+  target.kernels.any_hit(target.view, rays_.view(), query, met_.data());
   std::vector<std::size_t>& unsure = again_;
   unsure.clear();
   for (const std::size_t k : rounded_) {
@@ -178,7 +187,7 @@ const std::uint8_t* TraceWorker::find_any(const TraceTarget& target) {
     again_rays_.set(i, ray);
   }
   again_met_.resize(unsure.size());
-  target.kernels.any_hit(target.geometry.view(), again_rays_.view(), query, again_met_.data());
+  target.kernels.any_hit(target.view, again_rays_.view(), query, again_met_.data());
   std::size_t left = 0;
   for (std::size_t i = 0; i < unsure.size(); ++i) {
     if (again_met_[i] == 0) unsure[left++] = unsure[i];
@@ -199,8 +208,7 @@ std::size_t TraceWorker::list_chords(const TraceTarget& target, RayBuffer& rays,
   for (;;) {
     const ChordStream stream{enter_.data(), leave_.data(), chord_id_.data(), chord_slot_.data(),
                              enter_.size()};
-    stop = target.kernels.find_chords(target.geometry.view(), rays.view(), first, stream,
-                                      chord_ends_.data());
+    stop = target.kernels.find_chords(target.view, rays.view(), first, stream, chord_ends_.data());
     if (stop > first) break;
     const std::size_t more = std::max(fewest_chords, 2 * enter_.size());
     leave_.resize(more);

@@ -20,6 +20,7 @@ namespace boule {
 struct TraceTarget {
   const KernelTable& kernels;
   const Geometry& geometry;
+  const GeometryView& view;  ///< of the geometry
   Solver solver;
 };
 

@@ -41,10 +41,12 @@ Status Tracer::update(std::span<const Sphere> spheres) {
   bool is_good = false, has_moved = false;
   const auto move = [&] {
     has_moved = geometry_.refit(spheres, parallel_for);
+    view_ = geometry_.view();
     is_good = has_moved && geometry_.cost() <= tuning::worn_tree * built_cost_;
   };
   const auto build = [&] {
     geometry_ = geometry_.with_spheres({spheres.begin(), spheres.end()}, parallel_for);
+    view_ = geometry_.view();
     built_cost_ = geometry_.cost();
   };
   if (auto done = diagnose(std::cref(move)); !done) return done;

@@ -1,10 +1,13 @@
 // Spheres that move, and single rays.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <string>
 
 #include "render/renderer/tracer.h"
 #include "tests/render/ray_clouds.h"
+#include "tests/support/kernel_runs.h"
 
 namespace boule::test::tracer_update {
 namespace {
@@ -124,6 +127,64 @@ TEST(SingleRay, HitsAreThoseOfStreams) {
       for (std::size_t k = 0; k < rays.size(); ++k)
         EXPECT_EQ(hits[k].entering, expected[k].entering) << k;
     }
+  }
+}
+
+/// Rays whose ends lie around those of hits, and rays that leave spheres.
+std::vector<Ray> ending_rays(Tracer& tracer) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  std::vector<Ray> rays = ray_cloud(1000);
+  for (Ray& ray : rays) ray.tmin = 0;
+  const std::vector<TracedHit> hits = closest(tracer, rays);
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    Ray& ray = rays[k];
+    const double t = hits[k].id == no_primitive ? 1 : hits[k].t;
+    switch (k % 8) {
+      case 0:
+        ray.tmin = t;
+        break;
+      case 1:
+        ray.tmin = std::nextafter(t, 0.0);
+        break;
+      case 2:
+        ray.tmax = t;
+        break;
+      case 3:
+        ray.tmax = std::nextafter(t, 0.0);
+        break;
+      case 4:
+        ray.tmax = std::nextafter(t, inf);
+        break;
+      case 5:
+        ray.tmin = k % 16 == 5 ? 5e-324 : -5e-324;
+        break;
+      default:
+        ray.org = ray.org + vec_cast<double>(ray.dir) * t;
+        ray.source = hits[k].id;
+        ray.inside = k % 8 == 6;
+    }
+  }
+  rays[7].tmax = 1e-300;
+  rays[15].tmin = std::numeric_limits<double>::quiet_NaN();
+  rays[23].tmax = std::numeric_limits<double>::quiet_NaN();
+  return rays;
+}
+
+TEST(SingleRay, EndsAreComparedInDouble) {
+  Scene scene = objects(sphere_cloud(3000));
+  scene.spheres.push_back({{0, -2000, 0}, 1990});  // outside the tree
+  for (const std::string& isa : all_isa_names()) {
+    if (kernels_or_null(isa) == nullptr) continue;
+    Tracer tracer = Tracer::create(scene, {.isa = isa}).value();
+    const std::vector<Ray> rays = ending_rays(tracer);
+    const std::vector<TracedHit> expected = closest(tracer, rays);
+    std::vector<TracedHit> hits;
+    for (std::size_t k = 0; k < rays.size(); ++k) {
+      hits.push_back(tracer.closest(rays[k]).value());
+      EXPECT_EQ(hits[k].entering, expected[k].entering) << isa << k;
+      EXPECT_EQ(tracer.any(rays[k]).value(), expected[k].id != no_primitive) << isa << k;
+    }
+    EXPECT_EQ(differing_hits(hits, expected), 0) << isa;
   }
 }
 

@@ -129,19 +129,21 @@ BOULE_INLINE void load_packet(const RayStream& s, std::size_t first, RayLanes& r
   rays.inside = bits(rays.exact.inside);
 }
 
-/// Loads ray `index` into every lane.
-BOULE_INLINE void load_single(const RayStream& s, std::size_t index, RayLanes& rays) {
+/// Loads a ray into every lane.
+BOULE_INLINE void load_single(const Ray& ray, RayLanes& rays) {
   ExactRays& r = rays.exact;
-  const RayPlaces at = s.places(index);
-  r.org = {Wide(s.org_x[at.org]), Wide(s.org_y[at.org]), Wide(s.org_z[at.org])};
-  r.dir = widen(Vec3<Real>{Real(s.dir_x[at.dir]), Real(s.dir_y[at.dir]), Real(s.dir_z[at.dir])});
-  r.tmin = widen(Real(s.tmin[at.start]));
-  r.tmax = widen(Real(s.tmax[index]));
-  r.source = Bits(s.source[at.start]);
-  r.inside = widen(uniform(s.inside[at.start] != 0));
+  r.org = {Wide(ray.org.x), Wide(ray.org.y), Wide(ray.org.z)};
+  r.dir = widen(Vec3<Real>{Real(ray.dir.x), Real(ray.dir.y), Real(ray.dir.z)});
+  r.tmin = Wide(ray.tmin);
+  r.tmax = Wide(ray.tmax);
+  r.source = Bits(ray.source);
+  r.inside = widen(uniform(ray.inside));
   finish(r);
   make_filter(r, rays.filter);
   rays.inside = bits(r.inside);
+}
+BOULE_INLINE void load_single(const RayStream& s, std::size_t index, RayLanes& rays) {
+  load_single(get_ray(s, index), rays);
 }
 
 /// The t of a hit per lane, and the lanes that have one.

@@ -19,22 +19,18 @@ namespace boule::BOULE_KERNEL_ISA {
 
 class LoneRay {
  public:
-  /// Ray `index` of a stream.
-  BOULE_INLINE LoneRay(const GeometryView& geometry, const RayStream& rays, std::size_t index)
-      : spheres_(geometry.spheres), nodes_(geometry.bvh.nodes), blocks_(geometry) {
-    const RayPlaces at = rays.places(index);
-    org_[0] = rays.org_x[at.org];
-    org_[1] = rays.org_y[at.org];
-    org_[2] = rays.org_z[at.org];
-    dir_[0] = double{rays.dir_x[at.dir]};
-    dir_[1] = double{rays.dir_y[at.dir]};
-    dir_[2] = double{rays.dir_z[at.dir]};
-    source_ = rays.source[at.start];
-    inside_ = rays.inside[at.start] != 0;
-    tmin_ = double{rays.tmin[at.start]};
+  BOULE_INLINE LoneRay(const GeometryView& geometry, const Ray& ray)
+      : spheres_(geometry.spheres),
+        nodes_(geometry.bvh.nodes),
+        leaves_(spheres_.blocks + spheres_.scanned / bvh_leaf_size),
+        org_(ray.org),
+        dir_(vec_cast<double>(ray.dir)),
+        tmin_(ray.tmin),
+        source_(ray.source),
+        inside_(ray.inside) {
     constexpr double largest{std::numeric_limits<float>::max()};
-    tmax_ = largest < double{rays.tmax[at.tmax]} ? largest : double{rays.tmax[at.tmax]};
-    a_ = dot(dir(), dir());
+    tmax_ = largest < ray.tmax ? largest : ray.tmax;
+    a_ = dot(dir_, dir_);
     inverse_a_ = 1.0 / a_;
     length_ = __builtin_sqrt(a_);
     make_filter();
@@ -48,7 +44,7 @@ class LoneRay {
     const bool is_small = __builtin_fabsf(ray_.org[0]) < limit &&
                           __builtin_fabsf(ray_.org[1]) < limit &&
                           __builtin_fabsf(ray_.org[2]) < limit;
-    return is_small && ray_.unit[0] == ray_.unit[0] && !(ray_.live_from < 0);
+    return is_small && ray_.unit[0] == ray_.unit[0] && !(tmin_ < 0);
   }
   /// The largest t |dir| that counts.
   [[nodiscard]] BOULE_INLINE float end() const { return static_cast<float>(tmax_ * length_); }
@@ -57,27 +53,14 @@ class LoneRay {
   /// t |dir| that counts.
   BOULE_INLINE void find_nearest(float reach, Hit& hit) {
     ray_.reach = reach;
-    traverse([&](const SphereBlock& leaf) {
-      list_hits(leaf);
-      if (candidates_.size > FlightCandidates::most) solve(hit);
-      return false;
-    });
+    traverse<false>(hit);
     solve(hit);
   }
   /// Whether the ray meets a sphere of the tree before `reach`.
   [[nodiscard]] BOULE_INLINE bool find_any(float reach) {
     ray_.reach = reach;
-    bool met = false;
-    traverse([&](const SphereBlock& leaf) {
-      Hit hit;
-      met = list_hits(leaf);
-      if (!met && candidates_.size != 0) solve(hit);
-      candidates_.size = 0;
-      met = met || hit.id != no_primitive;
-      ray_.reach = reach;
-      return met;
-    });
-    return met;
+    Hit hit;
+    return traverse<true>(hit);
   }
 
  private:
@@ -90,12 +73,13 @@ class LoneRay {
     const double inverse_length = length_ * inverse_a_,
                  error_of = 1 + 2 * filter::slack * filter::u;
     const double longer = inverse_length * (1 + filter::slack / 2 * filter::u);
+    const double org[]{org_.x, org_.y, org_.z}, dir[]{dir_.x, dir_.y, dir_.z};
     double error = 0;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      ray_.org[axis] = static_cast<float>(org_[axis]);
-      error += __builtin_fabs(org_[axis] - double{ray_.org[axis]});
-      ray_.unit[axis] = static_cast<float>(dir_[axis] * inverse_length);
-      ray_.h[axis] = static_cast<float>(dir_[axis] * longer);
+      ray_.org[axis] = static_cast<float>(org[axis]);
+      error += __builtin_fabs(org[axis] - double{ray_.org[axis]});
+      ray_.unit[axis] = static_cast<float>(dir[axis] * inverse_length);
+      ray_.h[axis] = static_cast<float>(dir[axis] * longer);
     }
     ray_.origin_error = static_cast<float>(error * error_of + filter::floor);
     constexpr float largest = std::numeric_limits<float>::max();
@@ -109,41 +93,70 @@ class LoneRay {
     constexpr auto beside = static_cast<float>(4 * filter::slab_least);
     const float farthest = __builtin_fabsf(ray_.org[0]) + __builtin_fabsf(ray_.org[1]) +
                            __builtin_fabsf(ray_.org[2]) + extent;
+    const double org[]{org_.x, org_.y, org_.z};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const float size = __builtin_fabsf(ray_.unit[axis]);
       const bool tiny = size < least;
       const float steep = 1.0F / (tiny ? least : size);
       ray_.inverse[axis] = ray_.unit[axis] < 0 ? -steep : steep;
       const float aside = tiny ? farthest * beside : 0.0F;
-      const double at = org_[axis] * double{ray_.inverse[axis]};
+      const double at = org[axis] * double{ray_.inverse[axis]};
       const double slack = (double{aside} + filter::floor) * double{steep};
       ray_.near[axis] = static_cast<float>(0.0 - at - slack);
       ray_.far[axis] = static_cast<float>(slack - at);
     }
   }
 
-  /// Calls visit(leaf) for the leaves that the ray enters, near children first, until it returns
-  /// true.
-  template <class Visit>
-  BOULE_INLINE void traverse(const Visit& visit) {
-    waiting_ = 0;
+  /// Visits the leaves that the ray enters, near children first. Returns true, for any hit, where
+  /// it meets a sphere.
+  template <bool any_hit>
+  BOULE_INLINE bool traverse(Hit& hit) {
+    std::size_t waiting = 0;
     std::uint32_t next = 0;
     for (;;) {
       if ((next & leaf_bit) == 0) {
-        if (enter(nodes_[next], next)) continue;
-      } else if (visit(*static_cast<const SphereBlock*>(blocks_.at(next)))) {
-        return;
+        if (enter(nodes_[next], next, waiting)) continue;
+      } else {
+        const bool met = list_hits(index_of(next));
+        if constexpr (any_hit) {
+          if (met) return true;
+          if (candidates_.size != 0) {
+            const float reach = ray_.reach;
+            solve(hit);
+            if (hit.id != no_primitive) return true;
+            ray_.reach = reach;
+          }
+        } else if (candidates_.size > FlightCandidates::most) {
+          solve(hit);
+        }
       }
       do {
-        if (waiting_ == 0) return;
-        --waiting_;
-      } while (ray_.reach < near_[waiting_]);
-      next = child_[waiting_];
+        if (waiting == 0) return false;
+        --waiting;
+      } while (ray_.reach < waiting_[waiting].near());
+      next = waiting_[waiting].child();
     }
+  }
+  /// A child, and a lower bound, at least 0, of the distance at which it is entered.
+  struct Waiting {
+    std::uint64_t order;
+
+    [[nodiscard]] BOULE_INLINE float near() const {
+      return std::bit_cast<float>(static_cast<std::uint32_t>(order >> 32));
+    }
+    [[nodiscard]] BOULE_INLINE std::uint32_t child() const {
+      return static_cast<std::uint32_t>(order);
+    }
+  };
+  BOULE_INLINE static void sort(Waiting& far, Waiting& near) {
+    const bool swap = far.order < near.order;
+    const std::uint64_t less = swap ? far.order : near.order;
+    far.order = swap ? near.order : far.order;
+    near.order = less;
   }
   /// Sets `next` to the nearest child of a node that the ray enters, and lets the others wait.
   /// Returns false if there is none.
-  BOULE_INLINE bool enter(const BvhNode& node, std::uint32_t& next) {
+  BOULE_INLINE bool enter(const BvhNode& node, std::uint32_t& next, std::size_t& waiting) {
     alignas(64) float near[bvh_width];
     unsigned in = 0;
     for (std::size_t part = 0; part < parts; ++part) {
@@ -152,36 +165,43 @@ class LoneRay {
       in |= bits(passage.in) << part * width;
     }
     if (in == 0) return false;
-    next = node.child[std::countr_zero(in)];
-    float least = near[std::countr_zero(in)];
-    const std::size_t base = waiting_;
-    for (in &= in - 1; in != 0; in &= in - 1) {
+    const auto take = [&] {
       const int k = std::countr_zero(in);
-      if (near[k] < least) {
-        wait(least, next, base);
-        least = near[k];
-        next = node.child[k];
-      } else {
-        wait(near[k], node.child[k], base);
+      in &= in - 1;
+      return Waiting{std::uint64_t{std::bit_cast<std::uint32_t>(near[k])} << 32 | node.child[k]};
+    };
+    Waiting nearest = take();
+    if (in != 0) {
+      Waiting second = take();
+      sort(second, nearest);
+      if (in != 0) {
+        Waiting third = take();
+        sort(third, second);
+        sort(second, nearest);
+        const std::size_t base = waiting;
+        waiting_[waiting++] = third;
+        while (in != 0) {
+          Waiting other = take();
+          sort(other, second);
+          sort(second, nearest);
+          std::size_t at = waiting++;
+          for (; at > base && waiting_[at - 1].order < other.order; --at)
+            waiting_[at] = waiting_[at - 1];
+          waiting_[at] = other;
+        }
       }
+      waiting_[waiting++] = second;
     }
+    next = nearest.child();
     return true;
-  }
-  /// Keeps the children behind the base-th in order, farthest first.
-  BOULE_INLINE void wait(float near, std::uint32_t child, std::size_t base) {
-    std::size_t at = waiting_++;
-    for (; at > base && near_[at - 1] < near; --at) {
-      near_[at] = near_[at - 1];
-      child_[at] = child_[at - 1];
-    }
-    near_[at] = near;
-    child_[at] = child;
   }
 
   /// Makes the spheres of a leaf that may be hit candidates, and ends the reach behind those that
   /// certainly are. Returns whether one certainly is before the end of the ray.
-  BOULE_INLINE bool list_hits(const SphereBlock& leaf) {
-    const std::uint32_t slot = slot_of(spheres_, leaf);
+  BOULE_INLINE bool list_hits(std::uint32_t index) {
+    const SphereBlock& leaf = leaves_[index];
+    const std::uint32_t slot = static_cast<std::uint32_t>(spheres_.scanned) +
+                               index * static_cast<std::uint32_t>(bvh_leaf_size);
     bool sure = false;
     for (std::size_t part = 0; part < parts; ++part) {
       const std::size_t at = part * width;
@@ -222,15 +242,14 @@ class LoneRay {
   BOULE_INLINE void solve(std::uint32_t slot, Hit& hit) {
     const SlotSphere sphere = get_slot(spheres_, slot);
     const std::int32_t id = id_of(spheres_, slot);
-    const Vec3d f = Vec3d{double{sphere.x}, double{sphere.y}, double{sphere.z}} -
-                    Vec3d{org_[0], org_[1], org_[2]};
-    const double r = double{sphere.radius}, rr = r * r, b = dot(f, dir());
+    const Vec3d f = Vec3d{double{sphere.x}, double{sphere.y}, double{sphere.z}} - org_;
+    const double r = double{sphere.radius}, rr = r * r, b = dot(f, dir_);
     double t = 0;
     if (id == source_) {
       t = (b + b) * inverse_a_;
       if (!inside_ || !holds(t)) return;
     } else {
-      const Vec3d l = f - dir() * (b * inverse_a_);
+      const Vec3d l = f - dir_ * (b * inverse_a_);
       const double discriminant = rr - dot(l, l);
       if (!(0 <= discriminant)) return;
       const double q = b + __builtin_copysign(__builtin_sqrt(a_ * discriminant), b);
@@ -246,22 +265,19 @@ class LoneRay {
     const auto solved = static_cast<float>(t * length_);
     if (solved < ray_.reach) ray_.reach = solved;
   }
-  [[nodiscard]] BOULE_INLINE Vec3d dir() const { return {dir_[0], dir_[1], dir_[2]}; }
   [[nodiscard]] BOULE_INLINE bool holds(double t) const { return tmin_ < t && t <= tmax_; }
 
   const SphereView& spheres_;
   const BvhNode* nodes_;
-  TreeBlocks blocks_;
-  double org_[3], dir_[3];
-  double a_, inverse_a_, length_, tmin_, tmax_;
+  const SphereBlock* leaves_;
+  Vec3d org_, dir_;
+  double tmin_, tmax_, a_, inverse_a_, length_;
   std::int32_t source_;
   bool inside_;
   FlightRay ray_;
   NodeRows rows_;
   FlightCandidates candidates_;
-  std::size_t waiting_ = 0;
-  float near_[room];
-  std::uint32_t child_[room];
+  Waiting waiting_[room];
 };
 
 }  // namespace boule::BOULE_KERNEL_ISA

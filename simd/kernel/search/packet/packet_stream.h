@@ -25,4 +25,9 @@ template <class Geometry, class Answers>
 void trace_alone(const Geometry& geometry, const RayStream& rays, Solver solver,
                  const Answers& answers);
 
+/// KernelTable::closest_of_ray() and any_of_ray(), for a geometry of one part without capsules.
+/// (packets.cpp)
+bool closest_of_ray(const GeometryView& geometry, const Ray& ray, Hit& hit);
+bool any_of_ray(const GeometryView& geometry, const Ray& ray, bool& met);
+
 }  // namespace boule::BOULE_KERNEL_ISA
