@@ -33,7 +33,7 @@ struct NoiseSoFar {
 /// The progress of the work on pixels or rays.
 struct Progress {
   double share = 0;         ///< fraction of all work that is done, 0 .. 1
-  std::uint64_t rays = 0;   ///< of all kinds, traced so far
+  std::uint64_t rays = 0;   ///< of all kinds, traced so far; of a search near points, these
   std::size_t running = 0;  ///< number of blocks in work; 0 if it is unknown
   NoiseSoFar noise{};
   double resumed = 0;  ///< fraction that an earlier run had done

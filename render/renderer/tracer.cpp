@@ -208,6 +208,7 @@ TraceStatistics Tracer::statistics() const {
   return {{prepare_seconds_, isa_name(kernels_->isa), kernels_->width, options_.solver,
            scheduler_.threads_used()},
           rays_,
+          points_,
           trace_seconds_};
 }
 

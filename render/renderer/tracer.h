@@ -39,6 +39,7 @@ struct TraceOptions {
 /// The cost of tracing, over all calls so far.
 struct TraceStatistics : RunStatistics {
   std::uint64_t rays = 0;
+  std::uint64_t points = 0;  ///< of nearest(), within() and the like
   double trace_seconds = 0;
 };
 
@@ -188,7 +189,7 @@ class Tracer {
   double built_cost_ = 0;  ///< of its tree when it was built
   Scheduler scheduler_;
   std::vector<std::unique_ptr<TraceWorker>> workers_;
-  std::uint64_t rays_ = 0;
+  std::uint64_t rays_ = 0, points_ = 0;
   double prepare_seconds_ = 0;
   double trace_seconds_ = 0;
 };

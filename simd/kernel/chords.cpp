@@ -3,6 +3,7 @@
 
 #include "simd/kernel/search/packet/capsule_search.h"
 #include "simd/kernel/search/packet/chord_list.h"
+#include "simd/kernel/search/packet/lone_ray.h"
 #include "simd/kernel/search/packet/parts.h"
 #include "simd/kernel/search/packet/traverse.h"
 
@@ -14,8 +15,11 @@ namespace {
 class AllChords {
  public:
   /// Adds chords behind the first `count`.
-  BOULE_INLINE AllChords(const RayLanes& rays, const ChordStream& to, std::size_t count)
-      : to_(to), count_(count), far_(ClosestHit::distance(rays.exact.tmax, rays)) {}
+  BOULE_INLINE AllChords(const ChordStream& to, std::size_t count) : to_(to), count_(count) {}
+  /// Sets the end of the search, before a search by lanes.
+  BOULE_INLINE void end_with(const RayLanes& rays) {
+    far_ = ClosestHit::distance(rays.exact.tmax, rays);
+  }
 
   [[nodiscard]] BOULE_INLINE Real limit() const { return far_; }
   /// Whether there were more chords than the stream has room for.
@@ -51,16 +55,21 @@ class AllChords {
     store(slots, slot);
     for (; lanes != 0; lanes &= lanes - 1) {
       const int lane = std::countr_zero(lanes);
-      if (count_ >= to_.capacity) {
-        count_ = to_.capacity + 1;
-        return;
-      }
-      to_.enter[count_] = enters[lane];
-      to_.leave[count_] = leaves[lane];
-      to_.id[count_] = ids[lane];
-      to_.slot[count_] = slots[lane];
-      ++count_;
+      if (add(enters[lane], leaves[lane], ids[lane], slots[lane])) return;
     }
+  }
+  /// Adds a chord. Returns true if there is no room for it.
+  BOULE_INLINE bool add(double enter, double leave, std::int32_t id, std::uint32_t slot) {
+    if (count_ >= to_.capacity) {
+      count_ = to_.capacity + 1;
+      return true;
+    }
+    to_.enter[count_] = enter;
+    to_.leave[count_] = leave;
+    to_.id[count_] = id;
+    to_.slot[count_] = slot;
+    ++count_;
+    return false;
   }
 
  private:
@@ -163,21 +172,59 @@ BOULE_INLINE void scan_planes(const RayLanes& rays, Solver /*solver*/, const Pla
   }
 }
 
+/// Finds the chords of a ray in the tree as a LoneRay. Returns false if it cannot.
+BOULE_INLINE bool try_alone(const GeometryView& geometry, const Ray& ray, AllChords& all) {
+  if (geometry.bvh.size == 0 || !(geometry.bvh.extent < filter::limit)) return false;
+  LoneRay lone(geometry, ray);
+  if (!lone.may()) return false;
+  lone.find_chords(geometry, [&](double enter, double leave, std::int32_t id, std::uint32_t slot) {
+    return all.add(enter, leave, id, slot);
+  });
+  return true;
+}
+BOULE_INLINE bool try_alone(const PartsGeometry&, const Ray&, AllChords&) { return false; }
+
+BOULE_INLINE bool has_others(const GeometryView& geometry) {
+  return geometry.spheres.scanned != 0 || geometry.planes.size != 0;
+}
+BOULE_INLINE bool has_others(const PartsGeometry&) { return true; }
+
+/// The chords outside the tree of a geometry of one part.
+BOULE_INLINE void meet_others(const GeometryView& geometry, const RayLanes& rays, AllChords& all) {
+  scan_spheres<OnePerLane>(rays, Solver::robust, geometry.spheres, all);
+  scan_planes<OnePerLane>(rays, Solver::robust, geometry.planes, all);
+}
+BOULE_INLINE void meet_others(const PartsGeometry&, const RayLanes&, AllChords&) {}
+
+/// The chords of a ray.
+template <class Geometry>
+BOULE_INLINE void list_chords(const Geometry& geometry, const CapsuleView& capsules, const Ray& ray,
+                              AllChords& all) {
+  if (!(ray.tmin < ray.tmax)) return;
+  const bool alone = try_alone(geometry, ray, all);
+  if (alone && !has_others(geometry) && capsules.slots == 0) return;
+  RayLanes lanes;
+  load_single(ray, lanes);
+  all.end_with(lanes);
+  if (alone) {
+    meet_others(geometry, lanes, all);
+  } else {
+    search<OnePerLane>(lanes, Solver::robust, geometry, all);
+  }
+  if (capsules.slots != 0) search_capsules<OnePerLane>(lanes, capsules, all);
+}
+
 }  // namespace
 
 template <class Geometry>
 std::size_t list_chords(const Geometry& geometry, const CapsuleView& capsules,
                         const RayStream& rays, std::size_t first, const ChordStream& chords,
                         std::size_t* ends) {
-  RayLanes lanes;
   std::size_t count = 0;
   for (std::size_t i = first; i < rays.size; ++i) {
-    load_single(rays, i, lanes);
-    AllChords all(lanes, chords, count);
-    if (any(lanes.exact.tmin < lanes.exact.tmax)) {
-      search<OnePerLane>(lanes, Solver::robust, geometry, all);
-      if (capsules.slots != 0) search_capsules<OnePerLane>(lanes, capsules, all);
-    }
+    const Ray ray = get_ray(rays, i);
+    AllChords all(chords, count);
+    list_chords(geometry, capsules, ray, all);
     if (all.done()) return i;
     ends[i] = count = all.count();
   }

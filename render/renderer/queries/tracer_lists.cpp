@@ -54,13 +54,15 @@ template <class Value>
 void sort_spread(std::span<Value> values, SortRoom<Value>& room) {
   const auto before = [](const Value& a, const Value& b) { return a.key() < b.key(); };
   constexpr std::size_t fewest = 16;
+  if (values.size() < fewest) {
+    std::sort(values.begin(), values.end(), before);
+    return;
+  }
   const auto [least, most] = std::minmax_element(
       values.begin(), values.end(),
       [](const Value& a, const Value& b) { return a.position() < b.position(); });
-  const double low = values.empty() ? 0 : least->position();
-  const double scale = values.size() < fewest
-                           ? 0
-                           : static_cast<double>(values.size() - 1) / (most->position() - low);
+  const double low = least->position();
+  const double scale = static_cast<double>(values.size() - 1) / (most->position() - low);
   if (!(scale > 0) || !std::isfinite(scale) ||
       values.size() > std::numeric_limits<std::uint32_t>::max()) {
     std::sort(values.begin(), values.end(), before);

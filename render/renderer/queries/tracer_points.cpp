@@ -105,6 +105,7 @@ Status Tracer::run_points(const PointColumns& points, const PointBody& body) {
     };
     std::atomic<std::size_t> done{0};
     status = run_blocks({count, rays_of_stream}, std::cref(work), done);
+    points_ += done;
   }
   trace_seconds_ += watch.seconds();
   return status;

@@ -53,14 +53,23 @@ class LoneRay {
   /// t |dir| that counts.
   BOULE_INLINE void find_nearest(float reach, Hit& hit) {
     ray_.reach = reach;
-    traverse<false>(hit);
+    Nearest nearest{hit};
+    traverse(nearest);
     solve(hit);
   }
   /// Whether the ray meets a sphere of the tree before `reach`.
   [[nodiscard]] BOULE_INLINE bool find_any(float reach) {
     ray_.reach = reach;
-    Hit hit;
-    return traverse<true>(hit);
+    Any any;
+    return traverse(any);
+  }
+  /// Calls add(enter, leave, id, slot) for the chords of the tree's spheres that have a part
+  /// between tmin and tmax, in any order, until it returns true.
+  template <class Add>
+  BOULE_INLINE void find_chords(const GeometryView& geometry, const Add& add) {
+    ray_.reach = end();
+    All<Add> all{add, TreeBlocks(geometry)};
+    traverse(all);
   }
 
  private:
@@ -107,28 +116,17 @@ class LoneRay {
     }
   }
 
-  /// Visits the leaves that the ray enters, near children first. Returns true, for any hit, where
-  /// it meets a sphere.
-  template <bool any_hit>
-  BOULE_INLINE bool traverse(Hit& hit) {
+  /// Visits the leaves that the ray enters, near children first, until one says that it is enough:
+  /// Ask::visit(*this, leaf). Returns whether one did.
+  template <class Ask>
+  BOULE_INLINE bool traverse(Ask& ask) {
     std::size_t waiting = 0;
     std::uint32_t next = 0;
     for (;;) {
       if ((next & leaf_bit) == 0) {
-        if (enter(nodes_[next], next, waiting)) continue;
-      } else {
-        const bool met = list_hits(index_of(next));
-        if constexpr (any_hit) {
-          if (met) return true;
-          if (candidates_.size != 0) {
-            const float reach = ray_.reach;
-            solve(hit);
-            if (hit.id != no_primitive) return true;
-            ray_.reach = reach;
-          }
-        } else if (candidates_.size > FlightCandidates::most) {
-          solve(hit);
-        }
+        if (enter(ask, nodes_[next], next, waiting)) continue;
+      } else if (ask.visit(*this, index_of(next))) {
+        return true;
       }
       do {
         if (waiting == 0) return false;
@@ -137,6 +135,49 @@ class LoneRay {
       next = waiting_[waiting].child();
     }
   }
+  /// The nearest hit.
+  struct Nearest {
+    static constexpr bool ordered = true;
+    Hit& hit;
+    BOULE_INLINE bool visit(LoneRay& ray, std::uint32_t leaf) {
+      ray.list_hits(leaf);
+      if (ray.candidates_.size > FlightCandidates::most) ray.solve(hit);
+      return false;
+    }
+  };
+  /// Any hit.
+  struct Any {
+    static constexpr bool ordered = true;
+    Hit hit;
+    BOULE_INLINE bool visit(LoneRay& ray, std::uint32_t leaf) {
+      if (ray.list_hits(leaf)) return true;
+      if (ray.candidates_.size == 0) return false;
+      const float reach = ray.ray_.reach;
+      ray.solve(hit);
+      ray.ray_.reach = reach;
+      return hit.id != no_primitive;
+    }
+  };
+  /// Every chord: add(enter, leave, id, slot), which returns whether there is no more room.
+  template <class Add>
+  struct All {
+    static constexpr bool ordered = false;
+    const Add& add;
+    TreeBlocks blocks;
+    BOULE_INLINE bool visit(LoneRay& ray, std::uint32_t leaf) {
+      for (std::size_t part = 0; part < parts; ++part) {
+        const LeafPart spheres = ray.get_part(leaf, part);
+        RealMask may = ray.may_meet(spheres);
+        if (ray.source_ != no_primitive) may = may | spheres.own;
+        for (unsigned in = bits(may); in != 0; in &= in - 1) {
+          const auto slot = spheres.first + static_cast<std::uint32_t>(std::countr_zero(in));
+          if (ray.add_chord(slot, add)) return true;
+        }
+      }
+      return false;
+    }
+  };
+
   /// A child, and a lower bound, at least 0, of the distance at which it is entered.
   struct Waiting {
     std::uint64_t order;
@@ -155,8 +196,11 @@ class LoneRay {
     near.order = less;
   }
   /// Sets `next` to the nearest child of a node that the ray enters, and lets the others wait.
-  /// Returns false if there is none.
-  BOULE_INLINE bool enter(const BvhNode& node, std::uint32_t& next, std::size_t& waiting) {
+  /// Returns false if there is none. Where all children will be visited, their order is theirs, and
+  /// their memory is fetched at once.
+  template <class Ask>
+  BOULE_INLINE bool enter(const Ask& ask, const BvhNode& node, std::uint32_t& next,
+                          std::size_t& waiting) {
     alignas(64) float near[bvh_width];
     unsigned in = 0;
     for (std::size_t part = 0; part < parts; ++part) {
@@ -170,6 +214,14 @@ class LoneRay {
       in &= in - 1;
       return Waiting{std::uint64_t{std::bit_cast<std::uint32_t>(near[k])} << 32 | node.child[k]};
     };
+    if constexpr (!Ask::ordered) {
+      while ((in & (in - 1)) != 0) {
+        waiting_[waiting] = take();
+        ask.blocks.fetch(waiting_[waiting++].child());
+      }
+      next = take().child();
+      return true;
+    }
     Waiting nearest = take();
     if (in != 0) {
       Waiting second = take();
@@ -196,32 +248,45 @@ class LoneRay {
     return true;
   }
 
+  /// W spheres of a leaf.
+  struct LeafPart {
+    Vec3<Real> center;
+    Real radius;
+    std::uint32_t first;  ///< slot
+    RealMask own;         ///< the one that the ray leaves
+  };
+  BOULE_INLINE LeafPart get_part(std::uint32_t index, std::size_t part) const {
+    const SphereBlock& leaf = leaves_[index];
+    const std::size_t at = part * width;
+    const auto first = static_cast<std::uint32_t>(spheres_.scanned + index * bvh_leaf_size + at);
+    RealMask own = uniform(false);
+    if (source_ != no_primitive) own = load_integers(spheres_.id + first) == Bits(source_);
+    return {{load(leaf.center_x + at), load(leaf.center_y + at), load(leaf.center_z + at)},
+            load(leaf.radius + at),
+            first,
+            own};
+  }
+  BOULE_INLINE RealMask may_meet(const LeafPart& spheres) const {
+    return RejectSpheres(spheres.center, spheres.radius)
+        .may_meet(FlightRay::all(ray_.org), FlightRay::all(ray_.h), ray_.origin_error, ray_.reach);
+  }
   /// Makes the spheres of a leaf that may be hit candidates, and ends the reach behind those that
   /// certainly are. Returns whether one certainly is before the end of the ray.
-  BOULE_INLINE bool list_hits(std::uint32_t index) {
-    const SphereBlock& leaf = leaves_[index];
-    const std::uint32_t slot = static_cast<std::uint32_t>(spheres_.scanned) +
-                               index * static_cast<std::uint32_t>(bvh_leaf_size);
+  BOULE_INLINE bool list_hits(std::uint32_t leaf) {
     bool sure = false;
     for (std::size_t part = 0; part < parts; ++part) {
-      const std::size_t at = part * width;
-      const Vec3<Real> center{load(leaf.center_x + at), load(leaf.center_y + at),
-                              load(leaf.center_z + at)};
-      const Real radius = load(leaf.radius + at);
-      const RealMask may = RejectSpheres(center, radius)
-                               .may_meet(FlightRay::all(ray_.org), FlightRay::all(ray_.h),
-                                         ray_.origin_error, ray_.reach);
-      const std::uint32_t first = slot + static_cast<std::uint32_t>(at);
-      RealMask own = uniform(false);
-      if (source_ != no_primitive) own = load_integers(spheres_.id + first) == Bits(source_);
+      const LeafPart spheres = get_part(leaf, part);
       // The ray hits its own sphere again only if it leaves it on its inside; only double can find
       // the hit.
-      if (inside_ && any(own))
-        candidates_.add(Real(-static_cast<float>(no_hit)), count_from(first), bits(own));
-      if (!any(may & ~own)) continue;
+      if (inside_ && any(spheres.own)) {
+        candidates_.add(Real(-static_cast<float>(no_hit)), count_from(spheres.first),
+                        bits(spheres.own));
+      }
+      if (!any(may_meet(spheres) & ~spheres.own)) continue;
       const FilterRays rays = ray_.filter();
-      const NextRoots roots(find_approach(rays, center, radius), rays, Real(ray_.reach), own);
-      candidates_.add(roots.low, count_from(first), bits(roots.in));
+      const NextRoots roots(find_approach(rays, spheres.center, spheres.radius), rays,
+                            Real(ray_.reach), spheres.own);
+      candidates_.add(roots.low, count_from(spheres.first), bits(roots.in));
       const Real none(static_cast<float>(no_hit));
       const float high = least_lane(lesser_or(select(roots.sure, roots.high, none), none));
       sure = sure || high <= ray_.live_to;
@@ -238,32 +303,41 @@ class LoneRay {
     }
     candidates_.size = 0;
   }
-  /// solve_robust() of one ray and one sphere: the same bits.
-  BOULE_INLINE void solve(std::uint32_t slot, Hit& hit) {
+  /// The roots of one ray and one sphere by the formulas of solve_robust(): the same bits.
+  struct Chord {
+    double enter, leave;
+    bool met;
+  };
+  BOULE_INLINE Chord meet(std::uint32_t slot, std::int32_t id) const {
     const SlotSphere sphere = get_slot(spheres_, slot);
-    const std::int32_t id = id_of(spheres_, slot);
     const Vec3d f = Vec3d{double{sphere.x}, double{sphere.y}, double{sphere.z}} - org_;
     const double r = double{sphere.radius}, rr = r * r, b = dot(f, dir_);
-    double t = 0;
-    if (id == source_) {
-      t = (b + b) * inverse_a_;
-      if (!inside_ || !holds(t)) return;
-    } else {
-      const Vec3d l = f - dir_ * (b * inverse_a_);
-      const double discriminant = rr - dot(l, l);
-      if (!(0 <= discriminant)) return;
-      const double q = b + __builtin_copysign(__builtin_sqrt(a_ * discriminant), b);
-      const double from_a = q * inverse_a_;
-      const double from_cc = 0 < discriminant ? (dot(f, f) - rr) / q : from_a;
-      const bool ordered = from_cc < from_a;
-      t = ordered ? from_cc : from_a;
-      if (!holds(t)) t = ordered ? from_a : from_cc;
-      if (!holds(t)) return;
-    }
+    if (id == source_) return {-no_hit, (b + b) * inverse_a_, inside_};
+    const Vec3d l = f - dir_ * (b * inverse_a_);
+    const double discriminant = rr - dot(l, l);
+    const double q = b + __builtin_copysign(__builtin_sqrt(a_ * discriminant), b);
+    const double from_a = q * inverse_a_;
+    const double from_cc = 0 < discriminant ? (dot(f, f) - rr) / q : from_a;
+    const bool ordered = from_cc < from_a;
+    return {ordered ? from_cc : from_a, ordered ? from_a : from_cc, 0 <= discriminant};
+  }
+  BOULE_INLINE void solve(std::uint32_t slot, Hit& hit) {
+    const std::int32_t id = id_of(spheres_, slot);
+    const Chord chord = meet(slot, id);
+    if (!chord.met) return;
+    const double t = holds(chord.enter) ? chord.enter : chord.leave;
+    if (!holds(t)) return;
     if (!(t < hit.t || (t == hit.t && is_lower(id, hit.id)))) return;
     hit = {t, id, slot};
     const auto solved = static_cast<float>(t * length_);
     if (solved < ray_.reach) ray_.reach = solved;
+  }
+  template <class Add>
+  BOULE_INLINE bool add_chord(std::uint32_t slot, const Add& add) const {
+    const std::int32_t id = id_of(spheres_, slot);
+    const Chord chord = meet(slot, id);
+    const bool counts = chord.met && tmin_ < chord.leave && chord.enter <= tmax_;
+    return counts && add(chord.enter, chord.leave, id, slot);
   }
   [[nodiscard]] BOULE_INLINE bool holds(double t) const { return tmin_ < t && t <= tmax_; }
 

@@ -6,14 +6,16 @@
 //
 // The rays are chords from one random point of the sphere around a scene to another, so that no ray
 // has anything in common with the one before it. Embree answers in float, without a normal of the
-// surface that the ray meets where it leaves the sphere; how many of its hits are other spheres is
+// surface that the ray meets where it leaves the sphere; how many of its answers are others is
 // printed.
 #include <embree3/rtcore.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -29,15 +31,43 @@ namespace {
 constexpr int side = 256;  // as many rays as pixels
 constexpr int repetitions = 11;
 
+/// The crossings of rays, collected from Embree.
+struct EmbreeCrossings {
+  struct Crossing {
+    float t;
+    unsigned id;
+    bool entering;
+  };
+  std::vector<std::size_t> offset{0};
+  std::vector<Crossing> all;
+};
+
+/// The context of a ray that collects.
+struct CollectingContext {
+  RTCIntersectContext embree;  // first: Embree knows its address
+  std::vector<EmbreeCrossings::Crossing>* to;
+};
+
+/// Keeps a hit, and lets the search go on as if there were none.
+void collect(const RTCFilterFunctionNArguments* query) {
+  const auto* const ray = reinterpret_cast<const RTCRay*>(query->ray);
+  const auto* const hit = reinterpret_cast<const RTCHit*>(query->hit);
+  const float along = ray->dir_x * hit->Ng_x + ray->dir_y * hit->Ng_y + ray->dir_z * hit->Ng_z;
+  const auto* const context = reinterpret_cast<const CollectingContext*>(query->context);
+  context->to->push_back({ray->tfar, hit->primID, along < 0});
+  query->valid[0] = 0;
+}
+
 /// Embree's spheres, in the caller's memory.
 class EmbreeSpheres {
  public:
-  explicit EmbreeSpheres(const std::vector<Sphere>& spheres) {
+  explicit EmbreeSpheres(const std::vector<Sphere>& spheres, RTCFilterFunctionN filter = nullptr) {
     for (const Sphere& s : spheres)
       points_.insert(points_.end(), {s.center.x, s.center.y, s.center.z, s.radius});
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_SPHERE_POINT);
     rtcSetSharedGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
                                points_.data(), 0, 4 * sizeof(float), spheres.size());
+    rtcSetGeometryIntersectFilterFunction(geometry, filter);
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
@@ -53,12 +83,22 @@ class EmbreeSpheres {
   [[nodiscard]] unsigned closest(const Ray& ray) const {
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    RTCRayHit query{};
-    set(ray, query.ray);
-    query.hit.geomID = query.hit.primID = RTC_INVALID_GEOMETRY_ID;
-    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_, &context, &query);
-    return query.hit.primID;
+    return intersect(ray, context);
+  }
+  /// Precondition: the filter is collect().
+  [[nodiscard]] EmbreeCrossings all_hits(const std::vector<Ray>& rays) const {
+    EmbreeCrossings found;
+    CollectingContext context{{}, &found.all};
+    rtcInitIntersectContext(&context.embree);
+    for (const Ray& ray : rays) {
+      intersect(ray, context.embree);
+      std::sort(found.all.begin() + static_cast<std::ptrdiff_t>(found.offset.back()),
+                found.all.end(), [](const auto& a, const auto& b) {
+                  return std::tuple(a.t, a.id, !a.entering) < std::tuple(b.t, b.id, !b.entering);
+                });
+      found.offset.push_back(found.all.size());
+    }
+    return found;
   }
   [[nodiscard]] bool any(const Ray& ray) const {
     RTCIntersectContext context;
@@ -70,6 +110,14 @@ class EmbreeSpheres {
   }
 
  private:
+  unsigned intersect(const Ray& ray, RTCIntersectContext& context) const {
+    RTCRayHit query{};
+    set(ray, query.ray);
+    query.hit.geomID = query.hit.primID = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(scene_, &context, &query);
+    return query.hit.primID;
+  }
   static void set(const Ray& ray, RTCRay& to) {
     to.org_x = static_cast<float>(ray.org.x);
     to.org_y = static_cast<float>(ray.org.y);
@@ -101,11 +149,17 @@ std::vector<Ray> chords(const BenchScene& scene) {
   return rays;
 }
 
+/// Nanoseconds of work() for each of `count` rays.
+double nanoseconds(std::size_t count, const auto& work) {
+  const double begin = thread_seconds();
+  work();
+  return (thread_seconds() - begin) * 1e9 / static_cast<double>(count);
+}
 /// Nanoseconds of answer(ray) for each ray.
 double nanoseconds(const std::vector<Ray>& rays, const auto& answer) {
-  const double begin = thread_seconds();
-  for (const Ray& ray : rays) answer(ray);
-  return (thread_seconds() - begin) * 1e9 / static_cast<double>(rays.size());
+  return nanoseconds(rays.size(), [&] {
+    for (const Ray& ray : rays) answer(ray);
+  });
 }
 
 struct Times {
@@ -117,6 +171,34 @@ void print(const std::string& what, const Times& times, std::size_t others) {
   const double theirs = *std::min_element(times.theirs.begin(), times.theirs.end());
   std::printf("%-28s Boule %7.0f ns  Embree %7.0f ns  Embree / Boule %.2f  other answers %zu\n",
               what.c_str(), ours, theirs, theirs / ours, others);
+}
+
+/// All hits of all rays. Other answers: rays with other crossings.
+void compare_lists(const std::string& name, Tracer& tracer, const std::vector<Ray>& rays,
+                   const std::vector<Sphere>& spheres) {
+  const EmbreeSpheres embree(spheres, collect);
+  Times times;
+  std::size_t other_answers = 0, crossings = 0;
+  for (int k = 0; k < repetitions; ++k) {
+    EmbreeCrossings theirs;
+    times.theirs.push_back(nanoseconds(rays.size(), [&] { theirs = embree.all_hits(rays); }));
+    std::optional<Result<Crossings>> ours;
+    times.ours.push_back(nanoseconds(rays.size(), [&] { ours = tracer.all_hits(rays); }));
+    const Crossings& all = ours->value();
+    other_answers = 0;
+    for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+      const auto begin = static_cast<std::size_t>(all.offset[ray]);
+      const auto end = static_cast<std::size_t>(all.offset[ray + 1]);
+      bool same = end - begin == theirs.offset[ray + 1] - theirs.offset[ray];
+      for (std::size_t at = begin; same && at < end; ++at)
+        same = static_cast<unsigned>(all.id[at]) == theirs.all[theirs.offset[ray] + at - begin].id;
+      other_answers += same ? 0 : 1;
+    }
+    crossings = all.t.size();
+  }
+  print(name + " all hits", times, other_answers);
+  std::printf("%28s crossings a ray: %.2f\n", "",
+              static_cast<double>(crossings) / static_cast<double>(rays.size()));
 }
 
 int compare(const std::string& name) {
@@ -158,6 +240,7 @@ int compare(const std::string& name) {
   }
   print(name + " closest", closest, other_hits);
   print(name + " any", any, other_answers);
+  compare_lists(name, tracer.value(), rays, scene.value().spheres);
   return 0;
 }
 
