@@ -173,8 +173,8 @@ BOULE_INLINE void scan_planes(const RayLanes& rays, Solver /*solver*/, const Pla
 }
 
 /// Finds the chords of a ray in the tree as a LoneRay. Returns false if it cannot.
-BOULE_INLINE bool try_alone(const GeometryView& geometry, const Ray& ray, AllChords& all) {
-  if (geometry.bvh.size == 0 || !(geometry.bvh.extent < filter::limit)) return false;
+BOULE_INLINE bool list_alone(const GeometryView& geometry, const Ray& ray, AllChords& all) {
+  if (!LoneRay::suits(geometry)) return false;
   LoneRay lone(geometry, ray);
   if (!lone.may()) return false;
   lone.find_chords(geometry, [&](double enter, double leave, std::int32_t id, std::uint32_t slot) {
@@ -182,32 +182,27 @@ BOULE_INLINE bool try_alone(const GeometryView& geometry, const Ray& ray, AllCho
   });
   return true;
 }
-BOULE_INLINE bool try_alone(const PartsGeometry&, const Ray&, AllChords&) { return false; }
-
-BOULE_INLINE bool has_others(const GeometryView& geometry) {
-  return geometry.spheres.scanned != 0 || geometry.planes.size != 0;
-}
-BOULE_INLINE bool has_others(const PartsGeometry&) { return true; }
+BOULE_INLINE bool list_alone(const PartsGeometry&, const Ray&, AllChords&) { return false; }
 
 /// The chords outside the tree of a geometry of one part.
-BOULE_INLINE void meet_others(const GeometryView& geometry, const RayLanes& rays, AllChords& all) {
+BOULE_INLINE void list_others(const GeometryView& geometry, const RayLanes& rays, AllChords& all) {
   scan_spheres<OnePerLane>(rays, Solver::robust, geometry.spheres, all);
   scan_planes<OnePerLane>(rays, Solver::robust, geometry.planes, all);
 }
-BOULE_INLINE void meet_others(const PartsGeometry&, const RayLanes&, AllChords&) {}
+BOULE_INLINE void list_others(const PartsGeometry&, const RayLanes&, AllChords&) {}
 
 /// The chords of a ray.
 template <class Geometry>
-BOULE_INLINE void list_chords(const Geometry& geometry, const CapsuleView& capsules, const Ray& ray,
-                              AllChords& all) {
+BOULE_INLINE void chords_of_ray(const Geometry& geometry, const CapsuleView& capsules,
+                                const Ray& ray, AllChords& all) {
   if (!(ray.tmin < ray.tmax)) return;
-  const bool alone = try_alone(geometry, ray, all);
-  if (alone && !has_others(geometry) && capsules.slots == 0) return;
+  const bool alone = list_alone(geometry, ray, all);
+  if (alone && !LoneRay::leaves_others(geometry) && capsules.slots == 0) return;
   RayLanes lanes;
   load_single(ray, lanes);
   all.end_with(lanes);
   if (alone) {
-    meet_others(geometry, lanes, all);
+    list_others(geometry, lanes, all);
   } else {
     search<OnePerLane>(lanes, Solver::robust, geometry, all);
   }
@@ -224,7 +219,7 @@ std::size_t list_chords(const Geometry& geometry, const CapsuleView& capsules,
   for (std::size_t i = first; i < rays.size; ++i) {
     const Ray ray = get_ray(rays, i);
     AllChords all(chords, count);
-    list_chords(geometry, capsules, ray, all);
+    chords_of_ray(geometry, capsules, ray, all);
     if (all.done()) return i;
     ends[i] = count = all.count();
   }

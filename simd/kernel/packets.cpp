@@ -106,9 +106,6 @@ BOULE_INLINE std::size_t trace_pairs(const Geometry&, const PaddedStream&, std::
   return 0;
 }
 
-BOULE_INLINE bool has_others(const GeometryView& geometry) {
-  return geometry.spheres.scanned != 0 || geometry.planes.size != 0;
-}
 /// Tests the spheres outside the leaves, and the planes. Returns the best of all lanes.
 template <class Best>
 BOULE_INLINE Best meet_others(const GeometryView& geometry, const Ray& ray) {
@@ -123,7 +120,7 @@ BOULE_INLINE Best meet_others(const GeometryView& geometry, const Ray& ray) {
 
 BOULE_INLINE void go_alone(const GeometryView& geometry, const Ray& ray, LoneRay& lone, Hit& hit) {
   float reach = lone.end();
-  if (has_others(geometry)) {
+  if (LoneRay::leaves_others(geometry)) {
     const auto best = meet_others<ClosestHit>(geometry, ray);
     hit = single_hit(best);
     reach = least_lane(best.reach);
@@ -131,14 +128,14 @@ BOULE_INLINE void go_alone(const GeometryView& geometry, const Ray& ray, LoneRay
   lone.find_nearest(reach, hit);
 }
 BOULE_INLINE void go_alone(const GeometryView& geometry, const Ray& ray, LoneRay& lone, bool& met) {
-  met = (has_others(geometry) && meet_others<AnyHit<true>>(geometry, ray).done()) ||
+  met = (LoneRay::leaves_others(geometry) && meet_others<AnyHit<true>>(geometry, ray).done()) ||
         lone.find_any(lone.end());
 }
 
 /// Traces a ray as a LoneRay. Returns false if it cannot.
 template <class Answer>
 BOULE_INLINE bool try_alone(const GeometryView& geometry, const Ray& ray, Answer& answer) {
-  if (geometry.bvh.size == 0 || !(geometry.bvh.extent < filter::limit)) return false;
+  if (!LoneRay::suits(geometry)) return false;
   LoneRay lone(geometry, ray);
   if (!lone.may()) return false;
   go_alone(geometry, ray, lone, answer);

@@ -344,8 +344,9 @@ Status Tracing::append_chunk(HitFile& file) {
   return {};
 }
 
-/// Shows the progress of one chunk as part of `all` rays.
+/// Shows the progress of one chunk as part of `all` rays or points.
 void Tracing::show_progress(const Progress& progress, std::uint64_t all) {
+  if (command_.pairs) return live_.update({progress.share});
   const std::uint64_t done = traced_ + progress.rays;
   const double share = all > 0 ? static_cast<double>(done) / static_cast<double>(all) : 1;
   live_.update({share, done});
@@ -357,6 +358,7 @@ ExitCode Tracing::finish(const Tracer& tracer) {
   static_cast<RunStatistics&>(stats_) = static_cast<const RunStatistics&>(tracing);
   stats_.work_seconds = tracing.trace_seconds;
   stats_.rays = tracing.rays;
+  stats_.points = tracing.points;
   stats_.total_seconds = watch_.seconds();
   live_.end_stage();
   try {
@@ -379,7 +381,7 @@ void Tracing::tell_end() const {
                              counted(hit_count_, "pair"), stats_.work_seconds, how));
   } else if (!command_.points.empty()) {
     report_.note(fmt::format("boule: {}: {}, {} near them, {:.2f} s {}", command_.output,
-                             counted(traced_, "point"), counted(hit_count_, "object"),
+                             counted(stats_.points, "point"), counted(hit_count_, "object"),
                              stats_.work_seconds, how));
   } else {
     report_.note(fmt::format("boule: {}: {}, {}, {:.2f} s, {:.1f} Mray/s {}", command_.output,

@@ -79,7 +79,7 @@ void ProgressBar::update(const Progress& progress, double now) {
   if (!moved) return;
   moved_at_ = now;
   const double seconds = now - pass_since_;
-  mrays_per_s_ = seconds > 0 ? static_cast<double>(progress.rays) / seconds * 1e-6 : 0;
+  millions_per_s_ = seconds > 0 ? static_cast<double>(progress.rays) / seconds * 1e-6 : 0;
 }
 
 std::optional<std::string> ProgressBar::tell(double now) {
@@ -154,14 +154,24 @@ std::string ProgressBar::state(double now) const {
   const std::string so_far = frame + duration(elapsed) + " elapsed, ";
   const std::string what = awaited(now);
   if (left < 0 && !what.empty()) return so_far + what;
-  return so_far + (left < 0 ? "?" : duration(left)) + " left, " + (what.empty() ? rate() : what);
+  const std::string last = what.empty() ? rate() : what;
+  return so_far + (left < 0 ? "?" : duration(left)) + " left" + (last.empty() ? "" : ", " + last);
+}
+
+/// What is counted: rays, or points; empty: neither.
+std::string_view ProgressBar::counted_things() const {
+  const std::string_view of_what = of_what_;
+  if (of_what == "spheres") return "";
+  return of_what == "points" ? "point" : "ray";
 }
 
 /// "3.2 Mray/s"; where noise is measured and pixels are finished, what these have: "38.2 spp, 97 %
 /// settled", or "38.2 spp" in a series, whose line has no room for more.
 std::string ProgressBar::rate() const {
   const NoiseSoFar& noise = progress_.noise;
-  if (noise.pixels == 0) return fmt::format("{:.1f} Mray/s", mrays_per_s_);
+  const std::string_view things = counted_things();
+  if (things.empty()) return {};
+  if (noise.pixels == 0) return fmt::format("{:.1f} M{}/s", millions_per_s_, things);
   const std::string spp = fmt::format("{:.1f} spp", noise.mean_samples());
   return is_series() ? spp
                      : fmt::format("{}, {} % settled", spp, whole_percent(noise.settled_share()));
@@ -215,10 +225,12 @@ std::string ProgressBar::json_line(double now) const {
           ? ""
           : fmt::format(R"(,"mean_spp":{:.2f},"settled":{:.4f})", so_far.mean_samples(),
                         std::floor(so_far.settled_share() * 1e4) * 1e-4);
-  return fmt::format(
-      R"({{"share":{:.4f},"elapsed_s":{:.3f},"remaining_s":{},"mrays_per_s":{:.3f}{}{}}})",
-      std::floor(progress_.share * 1e4) * 1e-4, now - pass_since_, json_number(pass_remaining(now)),
-      mrays_per_s_, noise, series);
+  const std::string_view things = counted_things();
+  const std::string rate =
+      things.empty() ? "" : fmt::format(R"(,"m{}s_per_s":{:.3f})", things, millions_per_s_);
+  return fmt::format(R"({{"share":{:.4f},"elapsed_s":{:.3f},"remaining_s":{}{}{}{}}})",
+                     std::floor(progress_.share * 1e4) * 1e-4, now - pass_since_,
+                     json_number(pass_remaining(now)), rate, noise, series);
 }
 
 }  // namespace boule::cli

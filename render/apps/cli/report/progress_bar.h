@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "render/apps/cli/options/options.h"
 #include "render/frame/progress.h"
@@ -10,11 +11,11 @@
 namespace boule::cli {
 
 /// Decides what is told of a run while it goes on, and when: the share that is done, the time
-/// elapsed and remaining, rays per second or, where noise is measured, the samples of finished
-/// pixels, and, when nothing moves, what the run waits for. Stages,
-/// whose share is not known, are told of when they have taken two seconds, and on a pipe every ten
-/// seconds from then on. The class neither looks at a clock nor writes: `now` is in seconds from
-/// the run's start and never decreases.
+/// elapsed and remaining, rays or points per second or, where noise is measured, the samples of
+/// finished pixels, and, when nothing moves, what the run waits for. Stages, whose share is not
+/// known, are told of when they have taken two seconds, and on a pipe every ten seconds from then
+/// on. The class neither looks at a clock nor writes: `now` is in seconds from the run's start and
+/// never decreases.
 class ProgressBar {
  public:
   /// Any style but automatic. `frames` is the number of frames of a series; 1: no series.
@@ -29,7 +30,7 @@ class ProgressBar {
   void start_stage(const std::string& what, double now);
   void end_stage() { stage_.reset(); }
 
-  /// A pass over blocks of "pixels" or "rays", from start to end.
+  /// A pass over blocks of "pixels", "rays", "points" or "spheres", from start to end.
   void start_pass(const char* of_what, double now);
   void update(const Progress& progress, double now);
   void end_pass();
@@ -57,6 +58,7 @@ class ProgressBar {
   [[nodiscard]] double next_drawing() const;
   [[nodiscard]] double next_plain_line() const;
   [[nodiscard]] std::string state(double now) const;
+  [[nodiscard]] std::string_view counted_things() const;
   [[nodiscard]] std::string rate() const;
   [[nodiscard]] std::string awaited(double now) const;
   [[nodiscard]] std::string stage_line(double now) const;
@@ -72,11 +74,11 @@ class ProgressBar {
   std::optional<Stage> stage_;
   bool passing_ = false;
   const char* of_what_ = "";
-  Progress progress_;       ///< of this pass or the last
-  double pass_since_ = 0;   ///< its start
-  double moved_at_ = 0;     ///< when progress_ changed
-  double mrays_per_s_ = 0;  ///< of the pass until then
-  bool fresh_ = false;      ///< an update came since something was told
+  Progress progress_;          ///< of this pass or the last
+  double pass_since_ = 0;      ///< its start
+  double moved_at_ = 0;        ///< when progress_ changed
+  double millions_per_s_ = 0;  ///< of the pass until then
+  bool fresh_ = false;         ///< an update came since something was told
   double told_at_ = -std::numeric_limits<double>::infinity();  ///< anything
   double told_share_ = -1;  ///< share() then; negative: none was told yet
 };

@@ -29,6 +29,11 @@ std::string picture_text(const PictureStats& picture) {
                      picture.spp);
 }
 
+double millions_per_s(std::uint64_t count, const Stats& stats) {
+  const double seconds = stats.work_seconds;
+  return seconds > 0 ? static_cast<double>(count) / seconds * 1e-6 : 0;
+}
+
 std::string noise_text(const Stats& s) {
   if (!s.picture || !s.picture->noise) return {};
   const NoiseReached& noise = *s.picture->noise;
@@ -50,6 +55,12 @@ std::string rays_text(const Stats& s) {
                      rays.continuation);
 }
 
+std::string work_text(const Stats& s) {
+  if (s.points > 0)
+    return fmt::format("boule: stats: points: {}, {:.1f} Mpoint/s\n", s.points, mpoints_per_s(s));
+  return fmt::format("boule: stats: rays: {}, {:.1f} Mray/s\n", rays_text(s), mrays_per_s(s));
+}
+
 std::string faults_text(const Stats& s) {
   if (!s.picture) return {};
   const SampleFaults& faults = s.picture->faults;
@@ -62,13 +73,12 @@ std::string as_text(const Stats& s) {
       "boule: stats: {} ({}), solver {}, {}{}\n"
       "boule: stats: load {:.3f} s, prepare {:.3f} s, {} {:.3f} s, write {:.3f} s, "
       "total {:.3f} s\n"
-      "boule: stats: rays: {}, {:.1f} Mray/s\n"
-      "{}{}"
+      "{}{}{}"
       "boule: stats: peak memory {:.1f} MiB",
       s.isa, counted(static_cast<std::size_t>(s.width), "lane"), name_of(s.solver),
       counted(s.threads, "thread"), s.picture ? picture_text(*s.picture) : "", s.load_seconds,
       s.prepare_seconds, work_name(s), s.work_seconds, s.write_seconds, s.total_seconds,
-      rays_text(s), mrays_per_s(s), faults_text(s), noise_text(s), peak_rss_mib());
+      work_text(s), faults_text(s), noise_text(s), peak_rss_mib());
 }
 
 Json rays_json(const Stats& s) {
@@ -90,6 +100,7 @@ std::string as_json(const Stats& s) {
                      {"write", s.write_seconds},
                      {"total", s.total_seconds}};
   json["rays"] = rays_json(s);
+  if (s.points > 0) json["points"] = {{"count", s.points}};
   if (s.picture) {
     json["samples_not_finite"] = s.picture->faults.not_finite;
     json["samples_too_bright"] = s.picture->faults.too_bright;
@@ -103,16 +114,15 @@ std::string as_json(const Stats& s) {
     }
   }
   json["mrays_per_s"] = mrays_per_s(s);
+  if (s.points > 0) json["mpoints_per_s"] = mpoints_per_s(s);
   json["peak_rss_mib"] = peak_rss_mib();
   return json.dump(2) + "\n";
 }
 
 }  // namespace
 
-double mrays_per_s(const Stats& stats) {
-  const double seconds = stats.work_seconds;
-  return seconds > 0 ? static_cast<double>(stats.rays) / seconds * 1e-6 : 0;
-}
+double mrays_per_s(const Stats& stats) { return millions_per_s(stats.rays, stats); }
+double mpoints_per_s(const Stats& stats) { return millions_per_s(stats.points, stats); }
 
 std::string samples_text(const PictureStats& picture) {
   if (!picture.noise) return fmt::format("{} spp", picture.spp);

@@ -30,11 +30,13 @@ struct Stats : RunStatistics {
   double write_seconds = 0;
   double total_seconds = 0;
   std::uint64_t rays = 0;               ///< of all kinds
+  std::uint64_t points = 0;             ///< whose surroundings were searched
   std::optional<PictureStats> picture;  ///< none: it was a trace
 };
 
-/// Millions of rays per second of work, 0 where it took no time.
+/// Millions of rays, or of points, per second of work, 0 where it took no time.
 double mrays_per_s(const Stats& stats);
+double mpoints_per_s(const Stats& stats);
 
 /// "16 spp", or "143.2 spp on average, noise 0.019".
 std::string samples_text(const PictureStats& picture);

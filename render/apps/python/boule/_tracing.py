@@ -353,5 +353,5 @@ class Tracer(Strict):
 
     @property
     def stats(self):
-        """The cost so far: rays, prepare_seconds, trace_seconds, isa, width, threads."""
+        """The cost so far: rays, points, prepare_seconds, trace_seconds, isa, width, threads."""
         return self._tracer.stats()

@@ -262,6 +262,7 @@ py::dict statistics(const TracerHandle& tracer) {
   }
   py::dict values;
   values["rays"] = all.rays;
+  values["points"] = all.points;
   values["prepare_seconds"] = all.prepare_seconds;
   values["trace_seconds"] = all.trace_seconds;
   values["isa"] = std::string(all.isa);

@@ -8,6 +8,7 @@
 #include "core/math/geometry.h"
 #include "simd/kernel/search/flock/flight.h"
 #include "simd/kernel/search/leaf/primitive_access.h"
+#include "simd/kernel/search/packet/parts.h"
 #include "simd/kernel/search/packet/tree_blocks.h"
 
 /// One ray by itself in a tree, W children or W spheres at a time: chosen for streams that are to
@@ -19,6 +20,16 @@ namespace boule::BOULE_KERNEL_ISA {
 
 class LoneRay {
  public:
+  /// Whether a geometry has a tree that float can judge.
+  BOULE_INLINE static bool suits(const GeometryView& geometry) {
+    return geometry.bvh.size != 0 && geometry.bvh.extent < filter::limit;
+  }
+  /// Whether there are spheres outside the tree, or planes.
+  BOULE_INLINE static bool leaves_others(const GeometryView& geometry) {
+    return geometry.spheres.scanned != 0 || geometry.planes.size != 0;
+  }
+  BOULE_INLINE static bool leaves_others(const PartsGeometry& /*geometry*/) { return true; }
+
   BOULE_INLINE LoneRay(const GeometryView& geometry, const Ray& ray)
       : spheres_(geometry.spheres),
         nodes_(geometry.bvh.nodes),
