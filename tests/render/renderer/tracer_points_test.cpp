@@ -390,6 +390,7 @@ TEST(TracerPoints, BadPointsAreRefused) {
   EXPECT_FALSE(tracer.inside(good));
   EXPECT_FALSE(tracer.pairs());
   EXPECT_TRUE(moved.inside(good));
+  EXPECT_EQ(moved.statistics().points, good.size());
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace boule::cli {
@@ -71,6 +73,21 @@ TEST(PlainProgress, FirstLineComesAfterTwoSeconds) {
   ASSERT_THAT(times_of(told), ElementsAre(2, 4));
   EXPECT_EQ(told[0].text, "boule:  50 %, 2.0 s elapsed, 2.0 s left, 1.0 Mray/s");
   EXPECT_EQ(told[1].text, "boule: 100 %, 4.0 s elapsed, 0.0 s left, 1.0 Mray/s");
+}
+
+TEST(PlainProgress, RatesAreOfWhatIsCounted) {
+  using Names = std::pair<const char*, std::string>;
+  for (const auto& [of_what, rate] : {Names("points", ", 1.0 Mpoint/s"), Names("spheres", "")}) {
+    ProgressBar bar(ProgressStyle::plain), json(ProgressStyle::json);
+    for (ProgressBar* one : {&bar, &json}) {
+      one->start_pass(of_what, 0);
+      one->update({0.5, 2'000'000}, 2);
+    }
+    EXPECT_EQ(bar.tell(2).value_or(""), "boule:  50 %, 2.0 s elapsed, 2.0 s left" + rate);
+    const auto told = nlohmann::json::parse(json.tell(2).value_or(""));
+    EXPECT_EQ(told.value("mpoints_per_s", 0.0), rate.empty() ? 0 : 1);
+    EXPECT_FALSE(told.contains("mrays_per_s"));
+  }
 }
 
 /// The two seconds are those of the run, not of the pass.

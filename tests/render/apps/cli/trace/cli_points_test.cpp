@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <nlohmann/json.hpp>
 
 #include "render/renderer/tracer.h"
 #include "tests/render/apps/cli/trace/trace_program.h"
@@ -74,6 +75,19 @@ TEST_F(TracePoints, PointsAndPairsAreTheLibrarys) {
   EXPECT_GT(pairs.gap.size(), 10U);
   const std::string descr = "[('first', '<i4'), ('second', '<i4'), ('gap', '<f8')]";
   EXPECT_TRUE(answers({"--pairs", "0.1"}) == npy_file(hit_dict(descr, pairs.gap.size()), data));
+}
+
+TEST_F(TracePoints, StatisticsCountPoints) {
+  write("p.npy", point_file({{}, {1, 2, 3}}));
+  Arguments options = {"trace", small_scene(), "-o", path("h.npy"), "--points", path("p.npy")};
+  options.insert(options.end(), {"--stats", "json"});
+  const ProgramRun run = boule_run(options);
+  const auto stats = nlohmann::json::parse(run.out);
+  EXPECT_EQ(stats.at("points").at("count"), 2);
+  EXPECT_EQ(stats.at("rays").at("count"), 0);
+  EXPECT_GT(stats.at("mpoints_per_s").get<double>(), 0);
+  options.back() = "text";
+  EXPECT_THAT(boule_run(options).err, HasSubstr("stats: points: 2, "));
 }
 
 TEST_F(TracePoints, WrongPointsAreRefused) {
