@@ -116,7 +116,9 @@ BOULE_INLINE Ray get_ray(const Rays& rays, const RayPlaces& at) {
   ray.inside = rays.inside[at.start] != 0;
   return ray;
 }
-BOULE_INLINE Ray get_ray(const RayStream& rays, std::size_t i) { return get_ray(rays, rays.places(i)); }
+BOULE_INLINE Ray get_ray(const RayStream& rays, std::size_t i) {
+  return get_ray(rays, rays.places(i));
+}
 
 /// Nearest hits, one per ray: t in double, unrounded, and the primitive's id; inf and -1 for a
 /// miss. For a sphere, `slot` is its slot in the geometry, for a capsule that among the capsules;
