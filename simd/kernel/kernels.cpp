@@ -108,10 +108,10 @@ bool has_one_part(const GeometryView& geometry) {
   return geometry.parts.size == 0 && geometry.capsules.slots == 0;
 }
 bool hit_of_ray(const GeometryView& geometry, const Ray& ray, Hit& hit) {
-  return has_one_part(geometry) && closest_of_ray(geometry, ray, hit);
+  return has_one_part(geometry) && trace_ray(geometry, ray, hit);
 }
 bool ray_hits(const GeometryView& geometry, const Ray& ray, bool& met) {
-  return has_one_part(geometry) && any_of_ray(geometry, ray, met);
+  return has_one_part(geometry) && trace_ray(geometry, ray, met);
 }
 
 // The functions of the table. The functions that these call are always inlined and have no address.

@@ -185,13 +185,13 @@ std::size_t trace_groups(const Geometry& geometry, const PaddedStream& stream, s
   return visits;
 }
 
-bool closest_of_ray(const GeometryView& geometry, const Ray& ray, Hit& hit) {
-  return try_alone(geometry, ray, hit);
-}
-bool any_of_ray(const GeometryView& geometry, const Ray& ray, bool& met) {
-  return try_alone(geometry, ray, met);
+template <class Answer>
+bool trace_ray(const GeometryView& geometry, const Ray& ray, Answer& answer) {
+  return try_alone(geometry, ray, answer);
 }
 
+template bool trace_ray(const GeometryView&, const Ray&, Hit&);
+template bool trace_ray(const GeometryView&, const Ray&, bool&);
 template void trace_alone(const GeometryView&, const RayStream&, Solver, const HitStream&);
 template void trace_alone(const GeometryView&, const RayStream&, Solver, std::uint8_t* const&);
 template void trace_alone(const PartsGeometry&, const RayStream&, Solver, const HitStream&);

@@ -26,8 +26,9 @@ void trace_alone(const Geometry& geometry, const RayStream& rays, Solver solver,
                  const Answers& answers);
 
 /// KernelTable::closest_of_ray() and any_of_ray(), for a geometry of one part without capsules.
+/// Answer: Hit, or bool.
 /// (packets.cpp)
-bool closest_of_ray(const GeometryView& geometry, const Ray& ray, Hit& hit);
-bool any_of_ray(const GeometryView& geometry, const Ray& ray, bool& met);
+template <class Answer>
+bool trace_ray(const GeometryView& geometry, const Ray& ray, Answer& answer);
 
 }  // namespace boule::BOULE_KERNEL_ISA
