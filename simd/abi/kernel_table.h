@@ -45,11 +45,11 @@ struct KernelTable {
   void (*any_hit)(const GeometryView& geometry, const RayStream& rays, const Query& query,
                   std::uint8_t* occluded);
 
-  /// Sets `hit` to the nearest hit of one ray, or `met` to whether it has any, by the solver robust:
-  /// without the work that a stream of one takes. The ends of the ray are compared in double.
-  /// Returns false, with the answer undefined, if it takes a stream: where there is no tree, where
-  /// there are parts or capsules, and for rays that float cannot judge or that may have hits behind
-  /// their origin.
+  /// Sets `hit` to the nearest hit of one ray, or `met` to whether it has any, by the solver
+  /// robust: without the work that a stream of one takes. The ends of the ray are compared in
+  /// double. Returns false, with the answer undefined, if it takes a stream: where there is no
+  /// tree, where there are parts or capsules, and for rays that float cannot judge or that may have
+  /// hits behind their origin.
   bool (*closest_of_ray)(const GeometryView& geometry, const Ray& ray, Hit& hit);
   bool (*any_of_ray)(const GeometryView& geometry, const Ray& ray, bool& met);
 
