@@ -12,6 +12,7 @@ __version__: str
 _Color = Union[str, Sequence[float], NDArray[Any]]
 _Vector = Union[Sequence[float], NDArray[Any]]
 _Path = Union[str, os.PathLike[str]]
+_Atoms = Any  # of ASE, MDAnalysis or pymatgen
 _FovAxis = Literal["x", "y", "max"]
 _Key = Mapping[str, Any]
 _Method = Literal["whitted", "path"]
@@ -528,7 +529,7 @@ class View:
     def _repr_html_(self) -> str: ...
 
 def view(
-    scene: Scene | _Path,
+    scene: Scene | _Path | _Atoms,
     *,
     size: tuple[int, int] | None = ...,
     spp: int | None = ...,
@@ -583,7 +584,7 @@ class _FromFile(_Shown):
     topology: str | None
 
 def load(
-    source: _Path,
+    source: _Path | _Atoms,
     *,
     frame: int | None = ...,
     polygons: _Polygons = ...,
@@ -610,7 +611,7 @@ def from_particles(
 def from_ase(atoms: Any, **look: _Shown) -> Scene: ...
 def series(frames: Iterable[Any], **look: _Shown) -> Iterator[Scene]: ...
 def render(
-    scene: Scene | _Path,
+    scene: Scene | _Path | _Atoms,
     *,
     size: str | Sequence[int] | None = ...,
     width: str | None = ...,

@@ -8,7 +8,7 @@ from . import _core
 from ._objects import error, path_of
 from ._progress import reporter
 from ._scene import Scene
-from ._sources import look_keys, with_look
+from ._sources import load, look_keys, particles_of, with_look
 
 
 class Interrupted(KeyboardInterrupt):
@@ -23,7 +23,7 @@ class Interrupted(KeyboardInterrupt):
 def render(scene, *, time_limit=None, partial=False, progress=False, frame=None, **given):
     """Renders a scene to a Picture. Arguments that you leave out come from the scene.
 
-    scene: a Scene, or the name of a file that load() would read; then frame, polygons and look are
+    scene: a Scene, or what load() would read: atoms, or the name of a file; then frame, polygons and look are
         as there. Of a packed scene, .boule, it is always the name, and trust=True opens it without
         checking it: for your own files only.
     size: (width, height) in pixels. spp: samples per pixel. filter: "box" or "tent".
@@ -51,6 +51,9 @@ def render(scene, *, time_limit=None, partial=False, progress=False, frame=None,
 
     Raises Interrupted, a KeyboardInterrupt, after Ctrl-C; it has the unfinished picture.
     """
+    look = {name: given.pop(name) for name in look_keys() if name in given}
+    if particles_of(scene) is not None:
+        scene, look = load(scene, **look), {}
     if isinstance(scene, Scene):
         source = scene._tree()
     elif isinstance(scene, (str, os.PathLike)):
@@ -59,7 +62,6 @@ def render(scene, *, time_limit=None, partial=False, progress=False, frame=None,
         raise _core.Error(
             f"expected a Scene or the name of a scene file, got {type(scene).__name__}"
         )
-    look = {name: given.pop(name) for name in look_keys() if name in given}
     keys = {**look_keys(**look), "frame": frame}
     keys.update((name, given.pop(name, None)) for name in ("polygons", "trust"))
     options = {**given, "time_limit": time_limit, "partial": partial}

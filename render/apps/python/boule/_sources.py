@@ -25,6 +25,11 @@ def look_keys(**look):
     return {**_LOOK, **look}
 
 
+def given_of(look):
+    """Those of the arguments that are given."""
+    return {name: one for name, one in look.items() if one is not None and one is not False}
+
+
 def with_look(*names, also=()):
     """Takes the arguments of _LOOK, or those named, as the function's own: help(), type checkers and errors
     have them. So it does with those of `also`."""
@@ -62,7 +67,8 @@ _OF_MEMORY = [name for name in _LOOK if name not in _core.file_choices]
 def load(source, *, frame=None, polygons="plane", **look):
     """Reads a scene: .toml, .nff, .npy, or a file of particles, for which a scene is made.
 
-    source: the name of the file.
+    source: the name of the file; or atoms: of ASE, a universe or a group of atoms of MDAnalysis, a
+        structure or a molecule of pymatgen. Of atoms the look is as for from_particles().
     frame: of a file of particles its frame, -1 is the last; of other scenes the frame of a series.
     polygons: NFF polygons become planes ("plane"), are left out ("skip"), or refused ("error").
     look: for files of particles, as the options of `boule render`: look ("paper", "plain", "dark"),
@@ -77,6 +83,9 @@ def load(source, *, frame=None, polygons="plane", **look):
 
     Raises boule.Error with file, line, column and key.
     """
+    atoms = particles_of(source)
+    if atoms is not None:
+        return from_particles(**atoms, **given_of(look))
     keys = {**look_keys(**look), "frame": frame, "polygons": polygons}
     return scene_of(_core.read(path_of(source), keys))
 
@@ -215,18 +224,35 @@ def _of_mdanalysis(atoms):
     }
 
 
+def _of_pymatgen(structure):
+    """The same for a structure or a molecule of pymatgen."""
+    lattice = getattr(structure, "lattice", None)
+    return {
+        "positions": structure.cart_coords,
+        "species": [str(getattr(one, "symbol", one)) for one in structure.species],
+        "cell": None if lattice is None else lattice.matrix,
+        "periodic": () if lattice is None else getattr(lattice, "pbc", True),
+    }
+
+
+def particles_of(one):
+    """The arguments of from_particles() that atoms of another package are; None for other things."""
+    if hasattr(one, "get_positions"):
+        return _of_ase(one)
+    if hasattr(getattr(one, "atoms", None), "positions"):
+        return _of_mdanalysis(one)
+    if hasattr(one, "cart_coords"):
+        return _of_pymatgen(one)
+    return None
+
+
 def _data_of(one, place):
     """A frame of a series as particles."""
-    if isinstance(one, dict):
-        given = one
-    elif hasattr(one, "get_positions"):
-        given = _of_ase(one)
-    elif hasattr(getattr(one, "atoms", None), "positions"):
-        given = _of_mdanalysis(one)
-    else:
+    given = one if isinstance(one, dict) else particles_of(one)
+    if given is None:
         raise error(
             f"frames[{place}]",
-            "expected atoms of ASE or MDAnalysis, or a dictionary with the arguments of "
+            "expected atoms of ASE, MDAnalysis or pymatgen, or a dictionary with the arguments of "
             f"from_particles(), got {type(one).__name__}",
         )
     known = inspect.signature(particles).parameters
@@ -241,8 +267,8 @@ def _data_of(one, place):
 def series(frames, **look):
     """The scenes of a series of particles in memory, one after the other.
 
-    frames: each one atoms of ASE, a universe or a group of atoms of MDAnalysis, or a dictionary
-        with the arguments of from_particles() but for the look. They are read at once: of a
+    frames: each one atoms of ASE, a universe or a group of atoms of MDAnalysis, a structure of
+        pymatgen, or a dictionary with the arguments of from_particles() but for the look. They are read at once: of a
         trajectory that goes on in place, give a generator, (u.atoms for _ in u.trajectory).
     look: as for load().
 

@@ -14,7 +14,7 @@ import webbrowser
 from ._core import Error
 from ._objects import error, path_of
 from ._scene import Scene
-from ._sources import look_keys, with_look
+from ._sources import given_of, load, particles_of, with_look
 
 _FRAME = (
     '<iframe src="{url}" title="{title}" width="100%" height="{height}" style="border: 0" '
@@ -64,8 +64,8 @@ def view(scene, *, size=None, spp=None, frames=None, threads=None, height=640, *
     """Shows a scene in a page that you turn with the mouse: in a notebook, as the last value of a
     cell, or in a browser, by View.open(). Needs the program, which wheels have inside.
 
-    scene: a Scene, or the name of a file that `boule view` opens: scenes, packed ones, particles;
-        of a trajectory you get all frames with a time line.
+    scene: a Scene, atoms as for load(), or the name of a file that `boule view` opens: scenes,
+        packed ones, particles; of a trajectory you get all frames with a time line.
     size: (width, height) in pixels of the picture at rest. spp: its samples per pixel.
     frames: a range of frames: of files whose names have #### for the number.
     threads: 0: as many as the process can run at once. height: of the cell, in pixels.
@@ -79,21 +79,23 @@ def view(scene, *, size=None, spp=None, frames=None, threads=None, height=640, *
         raise error("height", f"expected a number of pixels, got {height!r}")
     if frames is not None and not isinstance(frames, range):
         raise error("frames", f"expected a range of frames, got {frames!r}")
-    given = {"size": size, "spp": spp, "threads": threads, **look}
-    options = [word for name, value in given.items() for word in _option(name, value)]
-    if frames is not None:
-        options += ["--frames", f"{frames.start}-{frames.stop - 1}:{frames.step}"]
+    options = _options(size=size, spp=spp, threads=threads)
+    if particles_of(scene) is not None:
+        scene, look = load(scene, **look), {}
+    if isinstance(scene, Scene) and (frames is not None or given_of(look)):
+        name = "frames" if frames is not None else next(iter(given_of(look)))
+        raise error(name, "is of files, and the scene is none")
     folder = tempfile.TemporaryDirectory(prefix="boule-")
     try:
         if isinstance(scene, Scene):
-            if any(value not in (None, False) for value in look_keys(**look).values()):
-                raise error("look", "is of files, and the scene is none")
             path = os.path.join(folder.name, "scene.boule")
             scene.save(path)
             title = "a scene"
         else:
-            path = os.fsdecode(path_of(scene, "scene"))
-            title = path
+            path = title = os.fsdecode(path_of(scene, "scene"))
+            options += _options(**look)
+            if frames is not None:
+                options += ["--frames", f"{frames.start}-{frames.stop - 1}:{frames.step}"]
         return _start(path, options, title, height, folder)
     except BaseException:
         folder.cleanup()
@@ -112,8 +114,12 @@ def _program():
     return found
 
 
-def _option(name, value):
+def _options(**given):
     """The words of the command line that say so."""
+    return [word for name, value in given.items() for word in _option(name, value)]
+
+
+def _option(name, value):
     option = "--" + name.replace("_", "-")
     if value is None or value is False:
         return []

@@ -26,6 +26,41 @@ def as_file(path, frames):
     return path
 
 
+class Structure:
+    """As pymatgen has it."""
+
+    class Element(str):
+        @property
+        def symbol(self):
+            return self.rstrip("+-")
+
+    class Lattice:
+        matrix = np.eye(3) * 2.8
+        pbc = (True, True, False)
+
+    cart_coords = np.array([[0.0, 0, 0], [1.4, 1.4, 1.4]])
+    species = [Element("Cs+"), Element("Cl-")]
+    lattice = Lattice()
+
+
+def test_structures_are_read_alike():
+    expected = boule.from_particles(
+        Structure.cart_coords, species=["Cs", "Cl"], cell=Structure.Lattice.matrix,
+        periodic=Structure.Lattice.pbc, replicate=(2, 2, 1), floor=True,
+    )  # fmt: skip
+    loaded = boule.load(Structure(), replicate=(2, 2, 1), floor=True)
+    assert (loaded.spheres[0].centers == expected.spheres[0].centers).all()
+    assert (loaded.spheres[0].radii == expected.spheres[0].radii).all()
+    assert len(loaded.planes) == len(expected.planes) == 1
+    picture = boule.render(Structure(), size=(64, 48), replicate=(2, 2, 1), floor=True)
+    assert np.array_equal(picture, boule.render(expected, size=(64, 48)))
+    assert len(list(boule.series([Structure(), Structure()]))) == 2
+    with pytest.raises(TypeError, match="water"):
+        boule.load(Structure(), water=True)
+    with pytest.raises(boule.Error, match="scale"):
+        boule.load(Structure(), scale=0)
+
+
 @pytest.mark.parametrize("look", [{}, {"color": "speed"}, {"color": "speed", "floor": True}])
 @pytest.mark.parametrize("count", [1, 2, 4])
 def test_pictures_are_those_of_files(tmp_path, look, count):
