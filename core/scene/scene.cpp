@@ -88,6 +88,8 @@ class SectionCheck {
                       const std::shared_ptr<const PackedSpheres>&) {
     return {};
   }
+  /// Any numbers are groups.
+  static Status check(const std::string&, const TypeRule&, const OutlineGroups&) { return {}; }
 
   Status status_;
 };

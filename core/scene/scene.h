@@ -19,6 +19,7 @@
 #include "core/scene/group.h"
 #include "core/scene/light.h"
 #include "core/scene/material.h"
+#include "core/scene/outline_groups.h"
 #include "core/scene/packed_spheres.h"
 #include "core/scene/primitive.h"
 
@@ -142,6 +143,7 @@ struct Scene {
   std::vector<Group> groups{};  ///< shown by instances only
   std::vector<Instance> instances{};
   std::shared_ptr<const PackedSpheres> packed{};  ///< null: none
+  OutlineGroups outline_groups{};                 ///< of the spheres and capsules above
 };
 
 template <>
@@ -155,7 +157,7 @@ inline constexpr auto fields<Scene> = field_list(
     field("sphere", &Scene::spheres), field("plane", &Scene::planes),
     field("capsule", &Scene::capsules), field("clip", &Scene::clips),
     field("group", &Scene::groups), field("instance", &Scene::instances),
-    field("packed", &Scene::packed));
+    field("packed", &Scene::packed), field("outline_groups", &Scene::outline_groups));
 
 /// The first Problem of a scene, or std::nullopt. The Diagnostic's key is a dotted path as in scene
 /// files ("camera.fov", "sphere[3].radius", "group.bunny.instance[0].scale"). Renderer, Tracer and

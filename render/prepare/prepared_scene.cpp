@@ -218,6 +218,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
                          .backdrop = scene.backdrop,
                          .environment = std::move(environment),
                          .distortion = std::move(scene.distortion).value_or(DistortionMap{}),
+                         .outline_groups = std::move(scene.outline_groups),
                          .notes = std::move(notes)};
   const auto is_cut = [&prepared](const Sphere& sphere) { return prepared.is_cut(sphere); };
   if (std::erase_if(prepared.emissive_spheres, is_cut) > 0 && method == Method::path)

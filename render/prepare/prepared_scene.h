@@ -49,6 +49,7 @@ struct PreparedScene {
   CameraView camera_view{};        ///< the camera as the kernels read it
   Coherence coherence{};           ///< what primary rays have in common
   Coherence central_coherence{};   ///< the same for rays through the centre of the lens
+  OutlineGroups outline_groups;    ///< by id, or by id less that of the first capsule
   std::vector<std::string> notes;  ///< automatic choices, a sentence each
 
   /// Whether a hit is that of a sphere. Precondition of this and of the functions below: it is a
@@ -69,12 +70,21 @@ struct PreparedScene {
     const auto id = static_cast<std::uint32_t>(hit.id);
     return clips == 0 || !is_capsule(hit) ? id : id - static_cast<std::uint32_t>(clips);
   }
+  /// The number of a capsule that was hit among the capsules.
+  [[nodiscard]] std::uint32_t capsule_number(const Hit& hit) const {
+    return static_cast<std::uint32_t>(hit.id) - geometry.sphere_count() - geometry.plane_count();
+  }
+  /// The group of the primitive that was hit (OutlineGroups), 0: none.
+  [[nodiscard]] std::uint32_t outline_group(const Hit& hit) const {
+    if (geometry.is_plane(hit)) return 0;
+    if (is_capsule(hit)) return OutlineGroups::at(outline_groups.capsules, capsule_number(hit));
+    return OutlineGroups::at(outline_groups.spheres, static_cast<std::uint32_t>(hit.id));
+  }
   /// The material reference of the primitive that was hit.
   [[nodiscard]] MaterialRef material_ref(const Hit& hit) const {
     if (is_sphere(hit)) return geometry.material(hit.slot);
     if (geometry.is_plane(hit)) return plane(hit).material;
-    return of_capsules[static_cast<std::uint32_t>(hit.id) - geometry.sphere_count() -
-                       geometry.plane_count()];
+    return of_capsules[capsule_number(hit)];
   }
 
   /// A material in a colour of its own. Precondition: the reference has one.

@@ -1,6 +1,7 @@
 #include "render/renderer/outline.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "core/math/geometry.h"
@@ -128,17 +129,31 @@ void OutlineWorker::trace(int x0, int y0) {
   });
 }
 
+/// The radius of the sphere or capsule that was hit.
+double OutlineWorker::radius_of(const Hit& hit) const {
+  const Geometry& geometry = setup_.scene.geometry;
+  return static_cast<double>(setup_.scene.is_capsule(hit) ? geometry.capsule(hit.slot).radius
+                                                          : geometry.sphere(hit.slot).radius);
+}
+
+/// Whether a line goes between two points with these hits.
+bool OutlineWorker::differ(const Hit& a, const Hit& b) const {
+  if (a.id == b.id) return false;
+  const PreparedScene& scene = setup_.scene;
+  if (scene.outline_groups.empty() || a.id == no_primitive || b.id == no_primitive) return true;
+  const std::uint32_t group = scene.outline_group(a);
+  if (group == 0 || group != scene.outline_group(b)) return true;
+  return !(std::fabs(a.t - b.t) <= outline_jump * radius_of(b.t < a.t ? b : a));
+}
+
 /// The line between two points with different hits.
 const std::vector<int>& OutlineWorker::disc_between(const Hit& a, const Hit& b) const {
   const Hit& nearer = b.t < a.t ? b : a;
-  const PreparedScene& scene = setup_.scene;
-  const Geometry& geometry = scene.geometry;
-  if (nearer.id == no_primitive || geometry.is_plane(nearer)) return discs_.back();
-  const auto radius =
-      static_cast<double>(scene.is_capsule(nearer) ? geometry.capsule(nearer.slot).radius
-                                                   : geometry.sphere(nearer.slot).radius);
+  if (nearer.id == no_primitive || setup_.scene.geometry.is_plane(nearer)) return discs_.back();
   const double pixel = length(step_org_ + step_dir_ * nearer.t);
-  const double most = outline_share * radius / pixel;
+  const bool is_grouped = setup_.scene.outline_group(nearer) != 0;
+  const double share = is_grouped ? outline_group_share : outline_share;
+  const double most = share * radius_of(nearer) / pixel;
   if (!(most < static_cast<double>(width_))) return discs_.back();
   return discs_[static_cast<std::size_t>(2 * most)];
 }

@@ -14,8 +14,9 @@
 
 namespace boule {
 
-/// Dark lines where the camera's view changes from one primitive to another, or to a miss. The view
-/// is sampled by rays through a grid of points, outline_grid x outline_grid in each pixel.
+/// Dark lines where the camera's view changes from one primitive to another, or to a miss, but for
+/// primitives of one group (OutlineGroups) that are near each other (outline_jump). The view is
+/// sampled by rays through a grid of points, outline_grid x outline_grid in each pixel.
 inline constexpr int outline_grid = 4;
 
 /// The lines of a picture: the number of points of each pixel that lie on a line. Two threads may
@@ -52,6 +53,13 @@ class Outline {
 /// a crowd of specks stays visible.
 inline constexpr double outline_share = 0.1;
 
+/// The same around primitives of a group, most of whose lines go around many of them.
+inline constexpr double outline_group_share = 0.5;
+
+/// Two primitives of one group have a line between them where one lies behind the other by more
+/// than so many radii of the nearer one. Chosen by eye.
+inline constexpr double outline_jump = 3;
+
 /// Finds the lines of blocks on one thread. A pixel's lines depend only on the scene, the camera
 /// and the size of the frame, and on points within the frame. Rays go through the centre of a lens.
 class OutlineWorker {
@@ -85,9 +93,15 @@ class OutlineWorker {
   void mark_below(int x, int y, const std::vector<int>& half_widths);
   void mark(int y, int first, int last);
   void count_points(const PixelRect& block, Outline& outline) const;
+  [[nodiscard]] bool differ(const Hit& a, const Hit& b) const;
+  [[nodiscard]] double radius_of(const Hit& hit) const;
   [[nodiscard]] const std::vector<int>& disc_between(const Hit& a, const Hit& b) const;
+  /// Whether a line goes between two points; around a cap it always does.
   [[nodiscard]] bool changes(std::size_t a, std::size_t b) const {
-    return seen_[a].id != seen_[b].id || (!surfaces_.empty() && surfaces_[a] != surfaces_[b]);
+    const auto is_cap = [this](std::size_t at) { return surfaces_[at] != seen_[at].id; };
+    const bool at_cap =
+        !surfaces_.empty() && surfaces_[a] != surfaces_[b] && (is_cap(a) || is_cap(b));
+    return at_cap || differ(seen_[a], seen_[b]);
   }
   [[nodiscard]] const Hit& hit(int x, int y) const { return seen_[points_.index(x, y)]; }
 

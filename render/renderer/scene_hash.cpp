@@ -144,6 +144,10 @@ class SceneHasher {
     if (shares_) hash_.add(instances);
   }
   void add(const std::shared_ptr<const PackedSpheres>&) {}
+  /// A scene without groups adds nothing, so that it keeps the hash that files already hold.
+  void add(const OutlineGroups& groups) {
+    if (!groups.empty()) hash_.add(groups);
+  }
 
   /// The scene's own primitives of a kind, and those that its instances show.
   template <class Primitive>

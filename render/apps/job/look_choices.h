@@ -50,6 +50,10 @@ inline auto file_and_view_choices() {
       choice<L>(look, "quick", &L::quick, FlagRule{}, "",
                 "A sketch in place of a look: a headlight, 4 samples"),
       choice<L>(look, "floor", &L::floor, FlagRule{}, "", "A floor below the particles"),
+      choice<L>(look, "outline_by", &L::outline_by,
+                TextRule{parse_words, "one of " + list_outline_rules() + ", or a column"}, "RULE",
+                "Outlines around each object, molecule, chain, residue, kind or group of a column, "
+                "and where the depth jumps; depth: there only (depth with sticks, else object)"),
       choice<L>(
           look, "clip", &L::clip,
           TextRule{parse_clip,

@@ -83,6 +83,10 @@ std::optional<std::string> parse_particle_format(const std::string& text) {
   return known ? std::optional(text) : std::nullopt;
 }
 
+std::string list_outline_rules() {
+  return list_names({names<OutlineRule>.begin(), names<OutlineRule>.end()});
+}
+
 std::string list_particle_formats() { return list_names(particle_formats()); }
 
 std::optional<std::string> parse_words(const std::string& text) {

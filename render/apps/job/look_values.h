@@ -32,6 +32,9 @@ std::optional<std::string> parse_radius(const std::string& text);
 std::optional<std::string> parse_bonds(const std::string& text);
 std::string list_bond_rules();
 
+/// The names of OutlineRule.
+std::string list_outline_rules();
+
 /// Three names of columns, or one that they have before x, y, z.
 std::optional<std::vector<std::string>> parse_arrows(const std::string& text);
 

@@ -192,6 +192,7 @@ void add_particles(std::string& text, const std::string& file, const LookOptions
   }
   if (options.bond_radius) add_line(text, "bond_radius", number(*options.bond_radius));
   if (!options.bond_color.empty()) add_line(text, "bond_color", toml_string(options.bond_color));
+  if (!options.outline_by.empty()) add_line(text, "outline_by", toml_string(options.outline_by));
   if (options.cell_edges) add_line(text, "cell_edges", "true");
   if (options.axes) add_line(text, "axes", "true");
   if (!options.arrows.empty()) {

@@ -49,6 +49,7 @@ struct LookOptions {
   bool quick = false;                             ///< a sketch, in place of the look's light
   bool floor = false;                             ///< a plane below the particles
   std::vector<ClipChoice> clip{};                 ///< planes that cut particles and bonds
+  std::string outline_by{};                       ///< what lines go around; empty: by the style
   std::string format{};                           ///< of the file; empty: as it seems to be
   std::vector<std::string> columns{};             ///< names for the columns; empty: the file's own
   std::optional<int> frame{};                     ///< of the file; negative: from its end

@@ -112,6 +112,7 @@ class ByteWriter {
   /// Without capsules or clips a scene has the bytes that versions without them give it and read.
   static bool says(const std::vector<Capsule>& capsules) { return !capsules.empty(); }
   static bool says(const std::vector<Clip>& clips) { return !clips.empty(); }
+  static bool says(const OutlineGroups& groups) { return !groups.empty(); }
   template <class T>
   static bool says(const T&) {
     return true;

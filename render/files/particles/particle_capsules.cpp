@@ -80,22 +80,62 @@ Status ParticleSpheres::add_bonds(const ParticleStyle& style, const BondPlan& pl
   return {};
 }
 
+/// The bonds that are drawn or, if none are, those of the automatic rule.
+Result<std::vector<Bond>> ParticleSpheres::any_bonds(const BondPlan& plan,
+                                                     const ParallelFor& parallel_for) {
+  if (plan.bonds != BondChoice(BondRule::none)) return bonds_;
+  BondPlan automatic = plan;
+  automatic.bonds = BondRule::automatic;
+  return make_bonds(*frame_, automatic, radii_, 1, parallel_for);
+}
+
+/// Finds the groups that outlines go around.
+Status ParticleSpheres::add_groups(const ParticleStyle& style, const BondPlan& plan,
+                                   const ParallelFor& parallel_for) {
+  OutlineChoice outline = style.outline_by;
+  const bool is_open = std::holds_alternative<std::monostate>(outline);
+  if (is_open && plan.shape == ParticleShape::sticks) outline = OutlineRule::depth;
+  Result<std::vector<Bond>> bonds = std::vector<Bond>();
+  if (needs_bonds(outline, *frame_)) bonds = any_bonds(plan, parallel_for);
+  if (!bonds) return bonds.error();
+  auto groups = make_groups(*frame_, outline, bonds.value());
+  if (!groups) return groups.error();
+  groups_ = std::move(groups).value();
+  return {};
+}
+
+Status ParticleSpheres::append_groups_to(OutlineGroups& groups, std::size_t before) const {
+  if (groups_.empty()) return {};
+  if (auto done =
+          check_memory(size() * sizeof(std::uint32_t), "groups of outlines need", "outline_by");
+      !done) {
+    return done;
+  }
+  const std::array<int, 3>& counts = images_.counts();
+  groups.spheres.resize(before);
+  groups.spheres.reserve(before + size());
+  const auto add = [&](std::size_t particle, const ImagePlace& place) {
+    groups.spheres.push_back(groups.largest + groups_.at(particle, place, counts));
+  };
+  for (std::size_t image = 0; image < images_.size(); ++image) {
+    const ImagePlace place = images_.place(image);
+    for (std::size_t i = 0; i < frame_->size(); ++i) add(i, place);
+  }
+  boundary_.each(add);
+  const std::size_t of_images = groups_.of_images ? images_.size() : 1;
+  groups.largest += groups_.count * static_cast<std::uint32_t>(of_images);
+  return {};
+}
+
 /// Moves bonded particles together, along the bonds that are drawn or else those of the automatic
 /// rule.
 Status ParticleSpheres::unwrap(const BondPlan& plan, const ParallelFor& parallel_for) {
   ParticleFrame& frame = *frame_;
-  const bool draws_none = plan.bonds == BondChoice(BondRule::none);
-  std::vector<Bond> found;
-  if (draws_none) {
-    BondPlan automatic = plan;
-    automatic.bonds = BondRule::automatic;
-    auto bonds = make_bonds(frame, automatic, radii_, 1, parallel_for);
-    if (!bonds) return bonds.error();
-    found = std::move(bonds).value();
-  }
-  const auto endless =
-      join_molecules(*frame.cell, plan.wraps, frame.positions, draws_none ? found : bonds_);
+  auto found = any_bonds(plan, parallel_for);
+  if (!found) return found.error();
+  const auto endless = join_molecules(*frame.cell, plan.wraps, frame.positions, found.value());
   if (!endless) return endless.error();
+  if (!bonds_.empty()) bonds_ = std::move(found).value();
   if (endless.value() == 0) return {};
   const std::string count = std::to_string(endless.value());
   frame.notes.push_back(
@@ -140,11 +180,12 @@ void ParticleSpheres::add_axes(const ParticleStyle& style) {
   axes_->box = is_chosen ? *style.chosen->axes_box : *own_.axes_box;
 }
 
-Status ParticleSpheres::append_capsules_to(std::vector<Capsule>& capsules,
-                                           const Vec3d& origin) const {
+Status ParticleSpheres::append_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin,
+                                           OutlineGroups* groups) const {
   append_lines_to(capsules, origin);
-  if (auto done = append_capsules_of(images_, &boundary_, capsules, origin); !done) return done;
-  return append_boundary_capsules_to(capsules, origin);
+  if (auto done = append_capsules_of(images_, &boundary_, capsules, origin, groups); !done)
+    return done;
+  return append_boundary_capsules_to(capsules, origin, groups);
 }
 
 Status ParticleSpheres::append_first_capsules_to(std::vector<Capsule>& capsules,
@@ -153,11 +194,14 @@ Status ParticleSpheres::append_first_capsules_to(std::vector<Capsule>& capsules,
 }
 
 Status ParticleSpheres::append_boundary_capsules_to(std::vector<Capsule>& capsules,
-                                                    const Vec3d& origin) const {
+                                                    const Vec3d& origin,
+                                                    OutlineGroups* groups) const {
   const FloatEnvironment environment;
   const std::size_t first = capsules.size();
   const CellImages shown(frame_->cell.value_or(ParticleCell()), images_.counts());
-  append_boundary_bonds(bonded(shown, &boundary_, origin), bonds_, bond_look_, capsules);
+  BondedParticles particles = bonded(shown, &boundary_, origin);
+  particles.group_list = groups;
+  append_boundary_bonds(particles, bonds_, bond_look_, capsules);
   if (!arrows_.empty()) {
     boundary_.each([&](std::size_t i, const ImagePlace& place) {
       add_arrow(i, (frame_->positions[i] - origin) + shown.shift(place), capsules);
@@ -168,7 +212,7 @@ Status ParticleSpheres::append_boundary_capsules_to(std::vector<Capsule>& capsul
 
 BondedParticles ParticleSpheres::bonded(const CellImages& images, const BoundaryImages* boundary,
                                         const Vec3d& origin) const {
-  return {frame_->positions, radii_, materials_, frame_->cell, images, origin, boundary};
+  return {frame_->positions, radii_, materials_, frame_->cell, images, origin, boundary, &groups_};
 }
 
 void ParticleSpheres::add_arrow(std::size_t particle, const Vec3d& begin,
@@ -208,14 +252,16 @@ void ParticleSpheres::append_axes_to(std::vector<Capsule>& capsules, const Vec3d
 }
 
 Status ParticleSpheres::append_capsules_of(const CellImages& images, const BoundaryImages* boundary,
-                                           std::vector<Capsule>& capsules,
-                                           const Vec3d& origin) const {
+                                           std::vector<Capsule>& capsules, const Vec3d& origin,
+                                           OutlineGroups* groups) const {
   const FloatEnvironment environment;
   if (bonds_.empty() && arrows_.empty()) return {};
   const std::size_t first = capsules.size();
   capsules.reserve(first + (2 * bonds_.size() + arrows_.size()) * images.size());
   const CellImages shown(frame_->cell.value_or(ParticleCell()), images.counts());
-  append_bonds(bonded(shown, boundary, origin), bonds_, bond_look_, capsules);
+  BondedParticles particles = bonded(shown, boundary, origin);
+  particles.group_list = groups;
+  append_bonds(particles, bonds_, bond_look_, capsules);
   for (std::size_t image = 0; image < images.size() && !arrows_.empty(); ++image) {
     const Vec3d shift = images.shift(image);
     for (std::size_t i = 0; i < arrows_.size(); ++i)

@@ -238,6 +238,7 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   made.materials_ = std::move(materials.value().materials);
   if (auto done = made.add_bonds(style, plan.value(), source.value(), name_of, parallel_for); !done)
     return done.error();
+  if (auto done = made.add_groups(style, plan.value(), parallel_for); !done) return done.error();
   if (auto done = made.find_bounds(style, parallel_for); !done) return done.error();
   if (auto done = made.add_arrows(style); !done) return done.error();
   made.add_axes(style);

@@ -12,6 +12,7 @@
 #include "core/math/srgb.h"
 #include "core/math/vec.h"
 #include "core/scene/material_ref.h"
+#include "core/scene/outline_groups.h"
 #include "core/scene/primitive.h"
 #include "render/files/particle_file/frame/particle_frame.h"
 #include "render/files/particles/bonds/bond_capsules.h"
@@ -20,6 +21,7 @@
 #include "render/files/particles/cell_images.h"
 #include "render/files/particles/colors/color_meaning.h"
 #include "render/files/particles/particle_choices.h"
+#include "render/files/particles/particle_groups.h"
 #include "render/files/particles/particle_labels.h"
 #include "render/files/particles/particle_style.h"
 #include "render/files/particles/particle_values.h"
@@ -31,10 +33,10 @@ namespace boule {
 class ParticleSpheres {
  public:
   /// Errors have a message and, as their key, the key of [[particles]] that is at fault ("file",
-  /// "select", "radius", "scale", "color", "color.by", "color.range", "material", "wrap",
-  /// "unwrap", "boundary", "replicate", "labels", "label_text"): an unknown column (with the one
-  /// that was meant, if any), a radius that is not above 0 or not finite with its particle (from 1,
-  /// in the order of the frame), no cell to wrap into, more spheres than there is memory for or
+  /// "select", "radius", "scale", "color", "color.by", "color.range", "material", "outline_by",
+  /// "wrap", "unwrap", "boundary", "replicate", "labels", "label_text"): an unknown column (with the
+  /// one that was meant, if any), a radius that is not above 0 or not finite with its particle (from
+  /// 1, in the order of the frame), no cell to wrap into, more spheres than there is memory for or
   /// than ids allow. Throws std::bad_alloc. The same for any threads.
   static Result<ParticleSpheres> make(ParticleFrame read, const ParticleStyle& style,
                                       const ParallelFor& parallel_for = serial_for);
@@ -69,13 +71,21 @@ class ParticleSpheres {
                    const ParallelFor& parallel_for = serial_for) &&;
 
   /// Appends the capsules: bonds, edges of the cell, axes, arrows. To be called before the spheres
-  /// are appended, with the same origin. An error, and no capsule more, as of spheres.
-  Status append_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
+  /// are appended, with the same origin. An error, and no capsule more, as of spheres. The groups
+  /// of bonds are put where the capsules are; to be called before append_groups_to().
+  Status append_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin,
+                            OutlineGroups* groups = nullptr) const;
+  /// Whether outlines go around groups.
+  [[nodiscard]] bool has_groups() const { return !groups_.empty(); }
+  /// Puts the groups of the spheres that append_to() appends behind `before` others. To be called
+  /// before that. An error if there is no memory.
+  Status append_groups_to(OutlineGroups& groups, std::size_t before) const;
   /// The same of the first image only; pieces of bonds meet where images do.
   Status append_first_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
   /// What is repeated on faces: spheres, and bonds and arrows.
   Status append_boundary_to(std::vector<Sphere>& spheres, const Vec3d& origin) const;
-  Status append_boundary_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
+  Status append_boundary_capsules_to(std::vector<Capsule>& capsules, const Vec3d& origin,
+                                     OutlineGroups* groups = nullptr) const;
   /// The edges of the cell and the axes only, which all images have together.
   void append_lines_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
   /// Bonds of the particles, those of images not among them.
@@ -102,12 +112,16 @@ class ParticleSpheres {
 
   Status add_bonds(const ParticleStyle& style, const BondPlan& plan, RadiusSource& source,
                    const ParticleNamer& name_of, const ParallelFor& parallel_for);
+  Result<std::vector<Bond>> any_bonds(const BondPlan& plan, const ParallelFor& parallel_for);
+  Status add_groups(const ParticleStyle& style, const BondPlan& plan,
+                    const ParallelFor& parallel_for);
   Status add_arrows(const ParticleStyle& style);
   void add_axes(const ParticleStyle& style);
   [[nodiscard]] BondedParticles bonded(const CellImages& images, const BoundaryImages* boundary,
                                        const Vec3d& origin) const;
   Status append_capsules_of(const CellImages& images, const BoundaryImages* boundary,
-                            std::vector<Capsule>& capsules, const Vec3d& origin) const;
+                            std::vector<Capsule>& capsules, const Vec3d& origin,
+                            OutlineGroups* groups = nullptr) const;
   void add_arrow(std::size_t particle, const Vec3d& begin, std::vector<Capsule>& capsules) const;
   void append_axes_to(std::vector<Capsule>& capsules, const Vec3d& origin) const;
   void keep_own(ParticleChoices colors);
@@ -127,6 +141,7 @@ class ParticleSpheres {
   CellImages images_;
   BoundaryImages boundary_;
   std::vector<Bond> bonds_;
+  ParticleGroups groups_;
   BondLook bond_look_;
   std::optional<BondLook> edge_look_;  ///< if the edges of the cell are drawn
   std::optional<AxesLook> axes_;       ///< if they are drawn

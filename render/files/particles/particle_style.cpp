@@ -49,7 +49,28 @@ void add_select_columns(const std::string& select, std::vector<std::string>& nam
   }
 }
 
+void add_outline_columns(const OutlineChoice& outline, std::vector<std::string>& names) {
+  if (const auto* const column = std::get_if<std::string>(&outline)) {
+    names.push_back(*column);
+  } else if (const auto* const rule = std::get_if<OutlineRule>(&outline)) {
+    for (const std::string& name : outline_columns(*rule)) names.push_back(name);
+  }
+}
+
 }  // namespace
+
+std::vector<std::string> outline_columns(OutlineRule rule) {
+  switch (rule) {
+    case OutlineRule::molecule:
+      return {"mol"};
+    case OutlineRule::chain:
+      return {"chain"};
+    case OutlineRule::residue:
+      return {"chain", "resid", "resname"};
+    default:
+      return {};
+  }
+}
 
 std::vector<std::string> three_names(const std::string& text) {
   const auto words = words_of(text);
@@ -65,6 +86,7 @@ std::vector<std::string> columns_of(const ParticleStyle& style) {
   add_select_columns(style.labels.select, names);
   add_label_columns(style.labels, names);
   if (style.arrows) add_arrow_columns(style.arrows->names, names);
+  add_outline_columns(style.outline_by, names);
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;

@@ -91,6 +91,17 @@ inline constexpr std::array<std::string_view, 5> names<BondRule>{"auto", "file",
 /// drawn, else none.
 using BondChoice = std::variant<std::monostate, BondRule, double>;
 
+/// What outlines of particles go around: each of them, all that is near what is before it, one
+/// kind, molecule, chain or residue. Molecules are those of the column "mol", else what is bonded.
+enum class OutlineRule { object, depth, kind, molecule, chain, residue };
+template <>
+inline constexpr std::array<std::string_view, 6> names<OutlineRule>{"object",   "depth", "kind",
+                                                                    "molecule", "chain", "residue"};
+
+/// A rule, or a column whose numbers or texts are the groups. Nothing: depth for sticks, else
+/// object.
+using OutlineChoice = std::variant<std::monostate, OutlineRule, std::string>;
+
 /// How the particles of a frame become spheres: what [[particles]] says.
 struct ParticleStyle {
   RadiusRule radius{};
@@ -115,6 +126,7 @@ struct ParticleStyle {
   bool cell_edges = false;                ///< are drawn
   bool axes = false;                      ///< are drawn, from a corner
   std::optional<ArrowColumns> arrows{};
+  OutlineChoice outline_by{};
   /// Which particles: "type == 1 && x > 0", 'species == "Fe"' (SelectExpression); empty: all.
   std::string select{};
   LabelRule labels{};     ///< of those that are shown
@@ -123,6 +135,9 @@ struct ParticleStyle {
   bool boundary = false;  ///< with the images of particles on faces that are on opposite faces
   std::array<int, 3> replicate{1, 1, 1};  ///< periodic images along a, b, c, >= 1 each
 };
+
+/// The columns that tell the groups of a rule, as far as a file has them.
+std::vector<std::string> outline_columns(OutlineRule rule);
 
 /// The columns that the style reads besides positions and species, for
 /// ParticleFileOptions::wanted. Those it would take by default are among them.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 #include <tuple>
 #include <vector>
 
@@ -194,6 +195,79 @@ TEST(Outline, WorksWhereFisheyeCornersAreEmpty) {
   const Image plain = render(scene);
   scene.image.outline = 1;
   EXPECT_GT(differing_pixels(render(scene), plain), 10);
+}
+
+/// A row of three balls that cut into each other, and one behind them.
+Scene row_of_balls() {
+  Scene scene = empty_scene(90, 70);
+  const auto matte = add_material(scene, Matte{});
+  scene.spheres = {{{-0.6f, 0, 0}, 0.5f, matte},
+                   {{0, 0, 0}, 0.5f, matte},
+                   {{0.6f, 0, 0}, 0.5f, matte},
+                   {{0, 0.4f, -4}, 0.5f, matte}};
+  scene.image.outline = 1;
+  return scene;
+}
+
+/// The points of all pixels that lie on a line.
+std::vector<int> line_points(const Scene& scene) {
+  auto renderer = Renderer::create(scene, options_of(scene));
+  const auto lines = renderer.value().render_outline();
+  std::vector<int> points;
+  for (int y = 0; y < scene.image.height; ++y)
+    for (int x = 0; x < scene.image.width; ++x) points.push_back(lines.value().points(x, y));
+  return points;
+}
+
+TEST(Outline, GoesAroundGroups) {
+  Scene scene = row_of_balls();
+  const std::vector<int> of_objects = line_points(scene);
+  const std::size_t row = 35 * 90;
+  const auto on_joint = [&](const std::vector<int>& points, std::size_t begin, std::size_t end) {
+    return std::accumulate(points.begin() + static_cast<std::ptrdiff_t>(row + begin),
+                           points.begin() + static_cast<std::ptrdiff_t>(row + end), 0);
+  };
+  // The joints of the balls lie at x = -0.3 and 0.3, to either side of the middle.
+  const auto left = [&](const auto& points) { return on_joint(points, 34, 44); };
+  const auto right = [&](const auto& points) { return on_joint(points, 46, 56); };
+  ASSERT_GT(left(of_objects), 0);
+  ASSERT_GT(right(of_objects), 0);
+  scene.outline_groups = {.spheres = {1, 1, 2, 0}, .largest = 2};
+  const std::vector<int> of_groups = line_points(scene);
+  EXPECT_EQ(left(of_groups), 0);
+  EXPECT_EQ(right(of_groups), right(of_objects));
+  // A list that ends early leaves the others by themselves.
+  scene.outline_groups = {.spheres = {1, 1}, .largest = 1};
+  EXPECT_EQ(line_points(scene), of_groups);
+}
+
+TEST(Outline, StaysWhereTheDepthJumps) {
+  Scene scene = row_of_balls();
+  scene.spheres.erase(scene.spheres.begin(), scene.spheres.begin() + 1);
+  scene.spheres.erase(scene.spheres.begin() + 1);
+  const std::vector<int> of_objects = line_points(scene);
+  scene.outline_groups = {.spheres = {1, 1}, .largest = 1};
+  EXPECT_EQ(line_points(scene), of_objects) << "4 apart, of radius 0.5";
+  scene.spheres[1].center.z = -1.2f;
+  EXPECT_NE(line_points(scene), of_objects);
+  scene.outline_groups.spheres[1] = 2;
+  const std::vector<int> apart = line_points(scene);
+  scene.outline_groups.spheres[1] = 1;
+  EXPECT_NE(line_points(scene), apart) << "1.2 apart";
+}
+
+TEST(Outline, IsOneAroundSphereAndRod) {
+  Scene scene = row_of_balls();
+  scene.spheres.resize(1);
+  scene.capsules = {{{-0.6f, 0, 0}, {0.6f, 0, 0}, 0.2f, 0}};
+  const std::vector<int> of_objects = line_points(scene);
+  scene.outline_groups = {.spheres = {3}, .capsules = {3}, .largest = 3};
+  const std::vector<int> of_group = line_points(scene);
+  const int all = std::accumulate(of_objects.begin(), of_objects.end(), 0);
+  const int around = std::accumulate(of_group.begin(), of_group.end(), 0);
+  EXPECT_LT(around, all);
+  scene.planes = {{{0, 0, -8}, {0, 0, 1}, 0}};  // comes before capsules in ids
+  EXPECT_EQ(line_points(scene), of_group);
 }
 
 TEST(Outline, RefusesWrongWidths) {

@@ -226,6 +226,7 @@ class Particles(_Keys):
     color: _Color | _Key | None
     colors: Mapping[str, _Color] | None
     nan_color: _Color | None
+    outline_by: str | None
     style: _Style | None
     bonds: float | str | None
     bond_radius: float | None
@@ -537,6 +538,41 @@ def view(
     threads: int | None = ...,
     height: int = ...,
     **look: _FromFile,
+    look: _Look | None = ...,
+    quick: bool = ...,
+    floor: bool = ...,
+    input_format: str | None = ...,
+    columns: str | Sequence[str] | None = ...,
+    water: bool = ...,
+    topology: str | None = ...,
+    color: str | None = ...,
+    colors: str | Mapping[str, str] | None = ...,
+    map: _Map | None = ...,
+    range: Sequence[float] | None = ...,
+    nan_color: str | None = ...,
+    radius: float | str | None = ...,
+    radii: str | Mapping[str, float] | None = ...,
+    scale: float | None = ...,
+    outline_by: str | None = ...,
+    style: _Style | None = ...,
+    bonds: float | str | None = ...,
+    bond_radius: float | None = ...,
+    bond_color: str | None = ...,
+    cell_edges: bool = ...,
+    axes: bool = ...,
+    arrows: str | Sequence[str] | None = ...,
+    arrow_scale: float | None = ...,
+    select: str | None = ...,
+    wrap: bool = ...,
+    unwrap: bool = ...,
+    boundary: bool = ...,
+    replicate: str | Sequence[int] | None = ...,
+    view: str | _Vector | None = ...,
+    up: str | _Vector | None = ...,
+    roll: float | None = ...,
+    ortho: bool = ...,
+    fov: float | None = ...,
+    margin: float | None = ...,
 ) -> View: ...
 class _Shown(_Keys):
     """How particles are shown."""
@@ -552,6 +588,7 @@ class _Shown(_Keys):
     radius: float | str | None
     radii: str | Mapping[str, float] | None
     scale: float | None
+    outline_by: str | None
     style: _Style | None
     bonds: float | str | None
     bond_radius: float | None

@@ -27,8 +27,9 @@ _MORE = {
     "capsule": ("color",),
     "particles": (
         "file", "frame", "format", "columns", "water", "topology", "radius", "radii", "scale",
-        "color", "colors", "nan_color", "style", "bonds", "bond_radius", "bond_color", "cell_edges",
-        "axes", "arrows", "arrow_scale", "select", "labels", "label_text", "wrap", "unwrap", "boundary",
+        "color", "colors", "nan_color", "outline_by", "style", "bonds", "bond_radius", "bond_color",
+        "cell_edges", "axes", "arrows", "arrow_scale", "select", "labels", "label_text", "wrap",
+        "unwrap", "boundary",
         "replicate", "material",
     ),
 }  # fmt: skip

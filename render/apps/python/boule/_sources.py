@@ -74,12 +74,13 @@ def load(source, *, frame=None, polygons="plane", **look):
     look: for files of particles, as the options of `boule render`: look ("paper", "plain", "dark"),
         quick, floor, input_format, columns (names, "-" skips one), water, topology (a file that
         tells the kinds of the particles), color, colors (a dictionary of colours by kind), map,
-        range, nan_color, radius, radii (a dictionary of radii by species), scale, style
-        ("space-filling", "balls-and-sticks", "sticks"), bonds (a rule, or a distance),
-        bond_radius, bond_color, cell_edges, axes, arrows (three columns, or the one name that they
-        have before x, y, z), arrow_scale, select, clip ("x<5", or a list of such), labels and
-        label_text (texts of particles, which render() of the file draws and a Scene does not keep),
-        wrap, unwrap, boundary, replicate, view, up, roll, ortho, fov, margin.
+        range, nan_color, radius, radii (a dictionary of radii by species), scale,
+        outline_by (what outlines go around: "chain", "molecule", ...), style ("space-filling",
+        "balls-and-sticks", "sticks"), bonds (a rule, or a distance), bond_radius, bond_color,
+        cell_edges, axes, arrows (three columns, or the one name that they have before x, y, z),
+        arrow_scale, select, clip ("x<5", or a list of such), labels and label_text (texts of
+        particles, which render() of the file draws and a Scene does not keep), wrap, unwrap,
+        boundary, replicate, view, up, roll, ortho, fov, margin.
 
     Raises boule.Error with file, line, column and key.
     """

@@ -16,6 +16,7 @@ struct BondEnd {
   Vec3d center;
   double radius;
   MaterialRef material;
+  std::uint32_t group;
 };
 
 /// Where a bond's materials meet, as a share of its length.
@@ -68,7 +69,10 @@ class BondDrawer {
   [[nodiscard]] BondEnd end(std::uint32_t particle, const ImagePlace& place) const {
     const MaterialRef own = particles_.materials[particle];
     return {(particles_.positions[particle] - particles_.origin) + particles_.images.shift(place),
-            static_cast<double>(particles_.radii[particle]), look_.material.value_or(own)};
+            static_cast<double>(particles_.radii[particle]), look_.material.value_or(own),
+            particles_.groups == nullptr
+                ? 0
+                : particles_.groups->at(particle, place, particles_.images.counts())};
   }
 
   /// The share of the way from an image that is shown to one that is not, up to the face of all
@@ -92,20 +96,26 @@ class BondDrawer {
 
   /// The part of a bond from one share of its length to another.
   void add_pieces(const BondEnd& a, const BondEnd& b, double from, double to) {
-    const bool is_one = a.material == b.material;
+    const bool is_one = a.material == b.material && a.group == b.group;
     const double middle = is_one ? 1 : middle_of(a, b);
-    if (from < middle) add(a, b, from, std::min(to, middle), a.material);
-    if (to > middle) add(a, b, std::max(from, middle), to, b.material);
+    if (from < middle) add(a, b, from, std::min(to, middle), a);
+    if (to > middle) add(a, b, std::max(from, middle), to, b);
   }
 
-  void add(const BondEnd& a, const BondEnd& b, double from, double to, MaterialRef material) {
+  /// A piece of a bond, which belongs to one of its ends.
+  void add(const BondEnd& a, const BondEnd& b, double from, double to, const BondEnd& owner) {
     const auto at = [&](double share) {
       if (share == 0) return vec_cast<float>(a.center);
       if (share == 1) return vec_cast<float>(b.center);
       return vec_cast<float>(a.center + (b.center - a.center) * share);
     };
     constexpr double least = 1e-6;  // less is an error of rounding
-    if (to - from > least) capsules_.push_back({at(from), at(to), look_.radius, material});
+    if (!(to - from > least)) return;
+    if (OutlineGroups* const list = particles_.group_list; list != nullptr && owner.group != 0) {
+      list->capsules.resize(capsules_.size());
+      list->capsules.push_back(list->largest + owner.group);
+    }
+    capsules_.push_back({at(from), at(to), look_.radius, owner.material});
   }
 
   const BondedParticles& particles_;

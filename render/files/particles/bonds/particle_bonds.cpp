@@ -186,7 +186,8 @@ class BondMaker {
 }  // namespace
 
 std::uint64_t most_bonded_of(const ParticleStyle& style) {
-  if (style.unwrap) return std::numeric_limits<std::uint64_t>::max();
+  if (style.unwrap || style.outline_by == OutlineChoice(OutlineRule::molecule))
+    return std::numeric_limits<std::uint64_t>::max();
   const bool is_open = std::holds_alternative<std::monostate>(style.bonds);
   if (is_open && !style.shape) return most_of_bonded_start;
   const bool may_list =

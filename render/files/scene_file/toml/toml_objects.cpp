@@ -73,6 +73,14 @@ Primitive of_radius(float radius) {
   return primitive;
 }
 
+/// Reports what asks for outlines around groups where each object has its own.
+void refuse_groups(TomlTable& table, const ParticleSpheres& particles) {
+  if (!particles.has_groups() || !table.has("outline_by")) return;
+  table.report("outline_by",
+               "is for particles of the scene itself, in fewer than 16777216 spheres: expected "
+               "\"object\"");
+}
+
 }  // namespace
 
 ObjectTables object_tables(TomlTable& table) {
@@ -161,8 +169,15 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
   }
   make_room(spheres, made.size());
   const std::size_t before = spheres.size();
-  if (auto done = made.append_capsules_to(owner.capsules, table.origin()); !done)
+  OutlineGroups* const groups =
+      std::is_same_v<Owner, Scene> && made.has_groups() ? &scene_.outline_groups : nullptr;
+  if (groups == nullptr) refuse_groups(table, made);
+  if (auto done = made.append_capsules_to(owner.capsules, table.origin(), groups); !done)
     table.report("file", done.error().message);
+  if (groups != nullptr) {
+    if (auto done = made.append_groups_to(*groups, before); !done)
+      table.report("outline_by", done.error().message);
+  }
   if (auto done = std::move(made).append_to(spheres, table.origin(), options_.parallel_for);
       !done) {
     spheres.resize(before);
@@ -173,6 +188,7 @@ void TomlObjects::add_particles(TomlTable& table, std::optional<TomlParticles>& 
 
 /// Shows images of particles as instances of a group.
 void TomlObjects::add_images(TomlTable& table, ParticleSpheres particles) {
+  refuse_groups(table, particles);
   Group group{"images of " + table.path(), {}, {}, {}, {}};
   const CellImages images = particles.images();
   particles.append_lines_to(scene_.capsules, table.origin());

@@ -72,6 +72,20 @@ BondChoice read_bonds(TomlTable& table) {
   return read_name<BondRule>(table, "bonds", "a number, ");
 }
 
+/// What outlines go around: a rule by its name, or a column.
+OutlineChoice read_outline(TomlTable& table) {
+  if (!table.has("outline_by")) return {};
+  std::string text;
+  table.read("outline_by", text);
+  const auto& rules = names<OutlineRule>;
+  const auto found = std::find(rules.begin(), rules.end(), text);
+  if (found != rules.end()) return static_cast<OutlineRule>(found - rules.begin());
+  if (text.empty()) {
+    table.report("outline_by", "expected a column or " + list_names({rules.begin(), rules.end()}));
+  }
+  return text;
+}
+
 /// The names of columns: one, or an array of some.
 std::vector<std::string> read_columns(TomlTable& table, std::string_view key) {
   std::vector<std::string> names;
@@ -109,6 +123,7 @@ void read_bond_keys(TomlTable& table, ParticleStyle& style) {
   style.bonds = read_bonds(table);
   if (table.has("bond_radius")) style.bond_radius = read_positive(table, "bond_radius", 1);
   if (table.has("bond_color")) style.bond_color = read_color_codes(table, "bond_color");
+  style.outline_by = read_outline(table);
   table.read("cell_edges", style.cell_edges);
   table.read("axes", style.axes);
   if (table.has("arrows")) {

@@ -78,6 +78,7 @@ TEST(ParticleLook, HasTheOptionsOfBonds) {
   look.bonds = "1.80";
   look.bond_radius = 0.1;
   look.bond_color = "Silver";
+  look.outline_by = "chain";
   look.cell_edges = true;
   look.axes = true;
   look.arrows = {"fx", "fy", "fz"};
@@ -86,6 +87,7 @@ TEST(ParticleLook, HasTheOptionsOfBonds) {
                                         "bonds = 1.80\n"
                                         "bond_radius = 0.1\n"
                                         "bond_color = \"Silver\"\n"
+                                        "outline_by = \"chain\"\n"
                                         "cell_edges = true\n"
                                         "axes = true\n"
                                         "arrows = [\"fx\", \"fy\", \"fz\"]\n"

@@ -61,6 +61,8 @@ TEST_F(TomlKindsTest, RefuseWhatIsWrong) {
         Wrong{"cell_edges = true\n", "cell_edges", "the file tells no cell"},
         Wrong{"arrows = [\"fx\", \"fy\"]\n", "arrows", "expected three columns"},
         Wrong{"arrows = \"f\"\n", "arrows", "there is no column 'fx'"},
+        Wrong{"outline_by = \"\"\n", "outline_by", "expected a column or 'object'"},
+        Wrong{"outline_by = \"chains\"\n", "outline_by", "did you mean 'chain'?"},
         Wrong{"arrow_scale = 2\n", "arrow_scale", "needs the vectors of arrows"},
         Wrong{"radii = { Na = 0 }\n", "radii.Na", "above 0, is 0"},
         Wrong{"radii = { Na = \"big\" }\n", "radii.Na", "expected a number"}}) {

@@ -68,13 +68,15 @@ TEST(LookOptions, OfCamerasAreKept) {
 }
 
 TEST(LookOptions, OfKindsAndCellsAreKept) {
-  const LookOptions look = look_of({"--colors", "O=crimson,7=#336699,a=b=red", "--radii",
-                                    "Na=1.02,Cl=1.81", "--nan-color", "Silver", "--replicate",
-                                    "2x3x1", "--wrap", "--unwrap", "--boundary"});
+  const LookOptions look =
+      look_of({"--colors", "O=crimson,7=#336699,a=b=red", "--radii", "Na=1.02,Cl=1.81",
+               "--nan-color", "Silver", "--outline-by", "chain", "--replicate", "2x3x1", "--wrap",
+               "--unwrap", "--boundary"});
   EXPECT_EQ(look.colors,
             (std::vector<KindText>{{"O", "crimson"}, {"7", "#336699"}, {"a=b", "red"}}));
   EXPECT_EQ(look.radii, (std::vector<KindText>{{"Na", "1.02"}, {"Cl", "1.81"}}));
   EXPECT_EQ(look.nan_color, "Silver");
+  EXPECT_EQ(look.outline_by, "chain");
   EXPECT_EQ(look.replicate, (std::array{2, 3, 1}));
   EXPECT_TRUE(look.wrap);
   EXPECT_TRUE(look.unwrap);
