@@ -48,6 +48,11 @@ void check_whole(ProblemFinder& finder, const EnvironmentBackground& background)
                  "must have finite numbers of 0 or above only");
 }
 
+void check_whole(ProblemFinder& finder, const ImageSettings& image) {
+  const bool grows = !image.fog_from || !image.fog_to || *image.fog_from < *image.fog_to;
+  finder.require("fog_to", grows, "must be above fog_from");
+}
+
 std::optional<Problem> find_problem(const Sphere& sphere) { return first_problem(sphere); }
 std::optional<Problem> find_problem(const Plane& plane) { return first_problem(plane); }
 std::optional<Problem> find_problem(const Capsule& capsule) { return first_problem(capsule); }

@@ -22,6 +22,7 @@
 namespace boule {
 
 class ProblemFinder;
+struct ImageSettings;
 
 /// Check the conditions on several fields together, for the types that have such conditions. They
 /// are called only if every field by itself is valid.
@@ -31,6 +32,7 @@ void check_whole(ProblemFinder& finder, const LensSurface& surface);
 void check_whole(ProblemFinder& finder, const LensCamera& camera);
 void check_whole(ProblemFinder& finder, const DistortionMap& map);
 void check_whole(ProblemFinder& finder, const EnvironmentBackground& background);
+void check_whole(ProblemFinder& finder, const ImageSettings& image);
 template <class T>
 void check_whole(ProblemFinder&, const T&) {}
 

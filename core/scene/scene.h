@@ -33,6 +33,7 @@ namespace rule {
 inline constexpr WholeRule image_side{.low = 1, .high = max_image_side};
 inline constexpr WholeRule samples{.low = 1, .high = max_count};
 inline constexpr NumberRule outline{.low = 0, .high = 100, .unit = " pixels"};
+inline constexpr NumberRule fog{.low = 0, .high = 1};
 inline constexpr WholeRule bounces{.low = 0, .high = max_count};
 inline constexpr NumberRule noise{.low = 0, .high = 1};
 inline constexpr NumberRule aa{.low = 0, .high = 255};
@@ -65,6 +66,11 @@ struct ImageSettings {
   bool transparent = false;  ///< with alpha: the fraction of a pixel that objects cover
   float outline = 0;         ///< width of dark lines around objects, in pixels; 0: off
   OverlayParts overlay{};    ///< drawn on the finished picture
+  /// The share of the backdrop in what is farthest, 0 .. 1, which grows from 0 at the depth
+  /// `fog_from` to all at `fog_to`; 0: no fog. Depths are along the camera's view, in units of
+  /// length; none: by the objects.
+  float fog = 0;
+  std::optional<float> fog_from{}, fog_to{};
 };
 
 template <>
@@ -73,7 +79,9 @@ inline constexpr auto fields<ImageSettings> = field_list(
     field("spp", &ImageSettings::spp, rule::samples), field("filter", &ImageSettings::filter),
     field("transparent", &ImageSettings::transparent),
     field("outline", &ImageSettings::outline, rule::outline),
-    field("overlay", &ImageSettings::overlay));
+    field("overlay", &ImageSettings::overlay), field("fog", &ImageSettings::fog, rule::fog),
+    field("fog_from", &ImageSettings::fog_from, rule::not_negative),
+    field("fog_to", &ImageSettings::fog_to, rule::not_negative));
 
 /// The rendering method. whitted: direct light, mirrors and glass. path: all light, by path
 /// tracing.

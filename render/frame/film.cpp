@@ -18,7 +18,7 @@ Color mean(const FilmPixel& pixel) {
 }
 
 float coverage(const FilmPixel& pixel) {
-  return static_cast<float>(static_cast<double>(pixel.covered) / pixel.samples);
+  return static_cast<float>(pixel.covered / (double{whole_coverage} * pixel.samples));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/math/color.h"
+#include "core/math/coverage.h"
 #include "render/frame/pixel_rect.h"
 #include "render/image/image.h"
 
@@ -16,7 +17,7 @@ namespace boule {
 struct FilmPixel {
   double r = 0, g = 0, b = 0;
   std::int32_t samples = 0;
-  std::uint32_t covered = 0;  ///< number of samples that are covered
+  std::uint32_t covered = 0;  ///< sum of the samples' coverage
 };
 
 /// The samples so far of a picture, or of a part of it: their sum and their number per pixel. Two
@@ -54,7 +55,8 @@ class Film {
     pixel.b += static_cast<double>(sample.b);
     ++pixel.samples;
   }
-  /// The same for a sample with its coverage by objects: 1 or 0.
+  /// The same for a sample with its coverage by objects, 0 .. whole_coverage. Precondition: the
+  /// pixel has fewer than most_covered_samples samples.
   void add(int x, int y, const Color& sample, std::uint8_t covered) {
     add(x, y, sample);
     pixels_[rect_.index(x, y)].covered += covered;
@@ -67,7 +69,7 @@ class Film {
   [[nodiscard]] std::uint64_t total_samples() const;
 
   /// The mean of each pixel's samples, at most the largest float; black for pixels without samples.
-  /// Alpha is the fraction of samples that were added as covered; 0 for pixels without samples.
+  /// Alpha is the mean coverage of the samples; 0 for pixels without samples.
   [[nodiscard]] Image to_image(Alpha alpha = Alpha::none) const;
 
   /// Writes the same into `image`, a picture of the frame's pixels in `rect`, with alpha if the

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/coverage.h"
 #include "core/math/srgb.h"
 
 namespace boule {
@@ -38,7 +39,7 @@ void SampleHalf::add(const Color& sample, std::uint8_t covered) {
   add_to(0, sample.r);
   add_to(1, sample.g);
   add_to(2, sample.b);
-  add_to(3, static_cast<float>(covered));
+  add_to(3, static_cast<float>(covered) / float{whole_coverage});
   ++count_;
 }
 

@@ -6,8 +6,10 @@
 #include <optional>
 
 #include "core/math/color.h"
+#include "core/math/coverage.h"
 #include "core/math/sample_id.h"
 #include "render/integrators/sample_faults.h"
+#include "render/prepare/fog.h"
 #include "simd/abi/isa.h"
 #include "simd/stream/stream_buffer.h"
 
@@ -50,6 +52,7 @@ struct IntegratorSettings {
   std::optional<float> shadow_epsilon{};
   /// Whitted only: receives the rays of one camera ray; null: off. Requires a stream_size of 1.
   RayRecord* record = nullptr;
+  Fog fog{};  ///< in front of what camera rays hit; not of a record
   LightSampling light_sampling = LightSampling::both;
   std::size_t stream_size = 16384;            ///< largest number of rays in one continuation
                                               ///< stream, >= 1
@@ -61,8 +64,8 @@ struct CameraRays {
   RayBuffer& rays;
   Coherence coherence;      ///< what the rays have in common
   const SampleId* samples;  ///< of each ray; may be null except for path tracing
-  /// Room for one number per ray, which becomes 1 if the ray hits something, otherwise 0; null:
-  /// off.
+  /// Room for one number per ray, which becomes 0 if the ray misses, otherwise whole_coverage less
+  /// the share of fog; null: off.
   std::uint8_t* covered = nullptr;
 };
 

@@ -48,6 +48,7 @@ bool StreamIntegrator::trace(const CameraRays& camera, Color* radiance) {
     trace_stream(*stream, camera);
   }
   wavefront_.finish(radiance);
+  if (settings_.fog.strength > 0) add_fog(radiance);
   return true;
 }
 
@@ -76,6 +77,7 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
     settings_.record->begin(
         stream.rays->get(0), hit(0), {met_.t[0], met_.id[0], met_.slot[0]},
         {stream.throughput.r[0], stream.throughput.g[0], stream.throughput.b[0]});
+  if (first_hits && settings_.fog.strength > 0) find_fog(stream);
   if (first_hits && camera.covered != nullptr) tell_coverage(camera.covered);
   for (std::size_t first = 0; first < count; first += StreamSurfaces::block_size) {
     shade({stream, first, std::min(first + StreamSurfaces::block_size, count)});
@@ -102,9 +104,35 @@ std::optional<Illumination::Epsilon> StreamIntegrator::epsilon() const {
   return Illumination::Epsilon{*settings_.shadow_epsilon, float_points_.data()};
 }
 
-void StreamIntegrator::tell_coverage(std::uint8_t* covered) const {
+/// The fog in front of the hits of the camera's rays, in the colour that is seen where they miss.
+void StreamIntegrator::find_fog(const PathStream& stream) {
+  veils_.assign(hits_.size(), {});
   for (std::size_t k = 0; k < hits_.size(); ++k) {
-    covered[k] = hit(k).id == no_primitive ? 0 : 1;
+    const Hit met = hit(k);
+    if (met.id == no_primitive) continue;
+    const Ray ray = stream.rays->get(k);
+    const Vec3d point = ray.org + vec_cast<double>(ray.dir) * met.t;
+    Veil& veil = veils_[k];
+    veil.share = settings_.fog.share(depth_of(scene_.camera_view, point));
+    if (veil.share > 0) {
+      veil.color =
+          scene_.backdrop ? *scene_.backdrop : background_radiance(scene_.background, ray.dir);
+    }
+  }
+}
+
+void StreamIntegrator::add_fog(Color* radiance) const {
+  for (std::size_t k = 0; k < veils_.size(); ++k) {
+    const auto& [share, color] = veils_[k];
+    if (share > 0) radiance[k] = radiance[k] * (1 - share) + color * share;
+  }
+}
+
+void StreamIntegrator::tell_coverage(std::uint8_t* covered) const {
+  const bool has_fog = settings_.fog.strength > 0;
+  for (std::size_t k = 0; k < hits_.size(); ++k) {
+    const float seen = hit(k).id == no_primitive ? 0 : has_fog ? 1 - veils_[k].share : 1;
+    covered[k] = static_cast<std::uint8_t>(seen * float{whole_coverage} + 0.5F);
   }
 }
 

@@ -110,6 +110,8 @@ class StreamIntegrator : public Integrator {
   /// The experience with rays of the current stream.
   [[nodiscard]] DepthExperience& experience();
   void find_float_points(const PathStream& stream);
+  void find_fog(const PathStream& stream);
+  void add_fog(Color* radiance) const;
   void tell_coverage(std::uint8_t* covered) const;
   void add_light(const TargetedLight& light);
   void record_shadow(const TargetedLight& light, const RayStream& rays,
@@ -121,6 +123,13 @@ class StreamIntegrator : public Integrator {
   std::uint64_t primary_ = 0, shadow_ = 0;
   std::array<DepthExperience, 8> experience_;  ///< by depth; the last one is of all deeper ones too
   int depth_ = 0;                              ///< of the current stream
+
+  /// What the fog in front of a camera ray's hit does.
+  struct Veil {
+    float share = 0;
+    Color color;
+  };
+  std::vector<Veil> veils_;  ///< by camera ray, if there is fog
 
   // Working memory of one stream.
   std::vector<Vec3f> float_points_;  ///< by ray, if shadow rays start by an epsilon

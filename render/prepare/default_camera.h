@@ -4,15 +4,9 @@
 #include "core/scene/scene.h"
 #include "render/prepare/camera_fitter.h"
 #include "render/prepare/default_view.h"
+#include "render/prepare/sphere_bounds.h"
 
 namespace boule {
-
-/// The box around the spheres and capsules of a scene, those of its instances among them. Around
-/// none, `low` is infinity and `high` is -infinity.
-struct SphereBounds {
-  Vec3d low, high;
-};
-SphereBounds bounds_of(const Scene& scene);
 
 /// The camera that a scene without one is given: one fitted to its spheres and capsules as
 /// `scene.fit` says, for pictures of `width` x `height` pixels (CameraFitter). If there are planes

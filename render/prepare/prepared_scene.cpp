@@ -200,6 +200,8 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   EnvironmentLight environment = environment_light(scene, method);
   const bool own_colors = has_own_colors(scene, parallel_for);
   std::vector<Sphere> emissive = emissive_spheres(scene);
+  std::optional<SphereBounds> bounds;
+  if (scene.image.fog > 0) bounds = bounds_of(scene);
   const std::vector<Sphere> sample = sample_spheres(scene, groups);
   const std::size_t clips = add_clip_planes(scene);
   PreparedScene prepared{.geometry = geometry_of(scene, groups, parallel_for),
@@ -218,6 +220,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
                          .backdrop = scene.backdrop,
                          .environment = std::move(environment),
                          .distortion = std::move(scene.distortion).value_or(DistortionMap{}),
+                         .bounds = bounds,
                          .outline_groups = std::move(scene.outline_groups),
                          .notes = std::move(notes)};
   const auto is_cut = [&prepared](const Sphere& sphere) { return prepared.is_cut(sphere); };

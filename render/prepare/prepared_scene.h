@@ -14,6 +14,7 @@
 #include "render/prepare/area_lights.h"
 #include "render/prepare/environment_light.h"
 #include "render/prepare/flat_material.h"
+#include "render/prepare/sphere_bounds.h"
 #include "simd/abi/isa.h"
 #include "simd/geometry/geometry.h"
 
@@ -41,16 +42,17 @@ struct PreparedScene {
   std::vector<Light> lights{};           ///< in file order, placed
   AreaLights area_lights{};              ///< for path tracing
   Background background;
-  std::optional<Color> backdrop;   ///< replaces the background for camera rays
-  EnvironmentLight environment;    ///< the background's image as a light, for path tracing
-  Camera camera{};                 ///< the scene's, or the default one
-  DistortionMap distortion;        ///< owns what camera_view.distortion points to
-  LensOptics lens{};               ///< owns what camera_view.lens points to
-  CameraView camera_view{};        ///< the camera as the kernels read it
-  Coherence coherence{};           ///< what primary rays have in common
-  Coherence central_coherence{};   ///< the same for rays through the centre of the lens
-  OutlineGroups outline_groups;    ///< by id, or by id less that of the first capsule
-  std::vector<std::string> notes;  ///< automatic choices, a sentence each
+  std::optional<Color> backdrop;         ///< replaces the background for camera rays
+  EnvironmentLight environment;          ///< the background's image as a light, for path tracing
+  Camera camera{};                       ///< the scene's, or the default one
+  DistortionMap distortion;              ///< owns what camera_view.distortion points to
+  LensOptics lens{};                     ///< owns what camera_view.lens points to
+  CameraView camera_view{};              ///< the camera as the kernels read it
+  Coherence coherence{};                 ///< what primary rays have in common
+  Coherence central_coherence{};         ///< the same for rays through the centre of the lens
+  std::optional<SphereBounds> bounds{};  ///< if the scene asks for fog
+  OutlineGroups outline_groups;          ///< by id, or by id less that of the first capsule
+  std::vector<std::string> notes;        ///< automatic choices, a sentence each
 
   /// Whether a hit is that of a sphere. Precondition of this and of the functions below: it is a
   /// hit of this geometry, not a miss.
@@ -112,8 +114,8 @@ inline Surface find_surface(const PreparedScene& scene, const Ray& ray, const Hi
 /// scene is invalid (validate()), if a side is outside 1 .. 65535, or if the scene has no camera
 /// and cannot be fitted with one. Passes on exceptions of `parallel_for`. Instances become
 /// primitives, or parts of the geometry (share_or_expand()). The geometry takes the place of the
-/// scene's spheres: move the scene here if you no longer need it. scene.image and scene.render are
-/// ignored.
+/// scene's spheres: move the scene here if you no longer need it. scene.image, but for its fog,
+/// and scene.render are ignored.
 Result<PreparedScene> prepare(Scene scene, int width, int height,
                               const ParallelFor& parallel_for = serial_for,
                               Method method = Method::whitted);

@@ -79,7 +79,7 @@ class BlockWorker {
   bool trace(Target& target, std::size_t count);
   [[nodiscard]] CameraRays camera_rays(const SampleId* samples);
   [[nodiscard]] std::uint8_t covered(std::size_t ray) const {
-    return covered_.empty() ? std::uint8_t{1} : covered_[ray];
+    return covered_.empty() ? whole_coverage : covered_[ray];
   }
   template <class Target>
   bool trace_all(Target& target, std::span<const SampleId> ids);

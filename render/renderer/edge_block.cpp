@@ -5,6 +5,7 @@
 #include <limits>
 #include <tuple>
 
+#include "core/math/coverage.h"
 #include "core/math/elementary.h"
 #include "core/math/srgb.h"
 
@@ -54,7 +55,7 @@ void EdgeBlock::add(const SampleId& id, const Color& sample, std::uint8_t covere
   if (id.sample == center) return add_center(id, sample, covered);
   Samples& samples = samples_[index_[block_.index(id.x, id.y)]];
   const PixelNumbers numbers{static_cast<double>(sample.r), static_cast<double>(sample.g),
-                             static_cast<double>(sample.b), static_cast<double>(covered)};
+                             static_cast<double>(sample.b), covered / double{whole_coverage}};
   for (std::size_t c = 0; c < numbers.size(); ++c) {
     samples.sum[c] += numbers[c];
     samples.squares[c] += numbers[c] * numbers[c];
@@ -65,8 +66,7 @@ void EdgeBlock::add(const SampleId& id, const Color& sample, std::uint8_t covere
 void EdgeBlock::add_center(const SampleId& id, const Color& sample, std::uint8_t covered) {
   const SrgbTable& table = SrgbTable::get();
   const auto code = [&](float number) { return table.code(number * scale_); };
-  codes_[area_.index(id.x, id.y)] = {code(sample.r), code(sample.g), code(sample.b),
-                                     static_cast<std::uint8_t>(covered * 255)};
+  codes_[area_.index(id.x, id.y)] = {code(sample.r), code(sample.g), code(sample.b), covered};
   if (in_block({id.x, id.y})) centers_[block_.index(id.x, id.y)] = sample;
 }
 
@@ -116,7 +116,7 @@ bool EdgeBlock::settle_center(const Pixel& pixel, MeasuredPicture& picture) {
     return false;
   }
   const Codes& codes = codes_[area_.index(pixel.x, pixel.y)];
-  set(pixel, {centers_[i], static_cast<float>(codes[3] / 255), 0, 1}, picture);
+  set(pixel, {centers_[i], static_cast<float>(codes[3]) / float{whole_coverage}, 0, 1}, picture);
   return true;
 }
 

@@ -149,6 +149,11 @@ Status validate(const RenderOptions& options) {
   if (options.shadow_epsilon && !rule::not_negative.allows(double{*options.shadow_epsilon})) {
     return Diagnostic::about("shadow_epsilon", "must be " + describe(rule::not_negative));
   }
+  if (options.transparent && options.spp > most_covered_samples) {
+    return Diagnostic::about("image.spp", "must be at most " +
+                                              std::to_string(most_covered_samples) +
+                                              " before a transparent background");
+  }
   const PixelRect frame{0, 0, options.width, options.height}, rect = rendered_rect(options);
   if (rect.empty() || !contains(frame, rect)) {
     return Diagnostic::about("crop", "must be at least one pixel and lie within the frame of " +

@@ -65,9 +65,10 @@ Result<Renderer> Renderer::create_from(AnyScene&& scene, const RenderOptions& op
     if (const auto kernels = kernels_for(options.isa, options.solver); !kernels)
       return kernels.error();
     Scheduler scheduler(options.threads);
-    Result<PreparedScene> prepared =
-        prepare(std::forward<AnyScene>(scene), options.width, options.height,
-                scheduler.parallel_for(), options.method);
+    Scene own = std::forward<AnyScene>(scene);
+    own.image.fog = options.fog;
+    Result<PreparedScene> prepared = prepare(std::move(own), options.width, options.height,
+                                             scheduler.parallel_for(), options.method);
     if (!prepared) return prepared.error();
     if (options.transparent) prepared.value().backdrop = Color{};
     auto renderer =
@@ -323,6 +324,7 @@ IntegratorSettings Renderer::integrator_settings() const {
   settings.seed = options_.seed;
   settings.shadow_epsilon = options_.shadow_epsilon;
   settings.least_weight = options_.least_weight;
+  if (options_.fog > 0) settings.fog = fog_of(options_, scene_->bounds, scene_->camera_view);
   return settings;
 }
 

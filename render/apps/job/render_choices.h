@@ -95,6 +95,10 @@ inline auto picture_choices() {
                 TextRule{parse_outline, "0 to 100 pixels, or points such as 0.5pt"}, "W",
                 "Dark lines where what is seen changes, W pixels wide, or points as in 0.5pt (0; "
                 "printed at least 0.35pt where the scene has some)"),
+      choice<J>(picture, "fog", &J::fog, rule::fog, "X",
+                "Blend to the background with the depth, from 0 at what is nearest to X of 0..1 at "
+                "what is farthest, such as 0.3 (0)",
+                &O::fog),
       choice<J>(picture, "overlay", &J::overlay,
                 TextRule{parse_overlay, "none, or some of " + list_overlay_parts() + ", each once",
                          ',', hint_overlay},

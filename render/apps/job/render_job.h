@@ -89,6 +89,7 @@ struct RenderJob : SceneJob {
   std::optional<PixelFilter> filter{};
   std::optional<BackgroundChoice> background{};
   std::optional<OutlineWidth> outline{};
+  std::optional<float> fog{};             ///< 0..1
   std::optional<OverlayParts> overlay{};  ///< drawn on the finished picture
   std::uint64_t seed = 0;
   std::optional<PixelRect> crop{};

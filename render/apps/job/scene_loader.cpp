@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "core/optics/camera_builder.h"
 #include "core/scene/instances.h"
 #include "render/apps/job/camera_option.h"
 #include "render/apps/job/overlay/legend_room.h"
@@ -11,6 +12,8 @@
 #include "render/files/particle_file/particle_file.h"
 #include "render/files/scene_file/loaded/frame_name.h"
 #include "render/files/scene_file/loaded/scene_data.h"
+#include "render/prepare/default_camera.h"
+#include "render/prepare/fog.h"
 
 namespace boule {
 namespace {
@@ -103,6 +106,7 @@ Result<LoadedScene> SceneLoader::choose_for_series() {
     const std::uint64_t spheres = find_shown(first.value());
     if (!needs_others(first.value())) {
       keep_colors(first.value());
+      choices_.box = bounds_of(first.value().scene);
       return first;
     }
     frames = surveyed_frames(whole_frames(), spheres, most_);
@@ -200,6 +204,7 @@ void SceneLoader::keep_floor_and_camera(const SeriesSurvey& survey, std::size_t 
     choices_.floor =
         floor_at(*survey.lowest(), choices_.floor->up, choices_.origin.value_or(Vec3d{}));
   }
+  choices_.box = survey.bounds();
   choices_.camera = survey.camera();
   if (!choices_.camera || survey.size() < frames) return;
   const auto count = static_cast<std::size_t>(whole_frames().count());
@@ -220,11 +225,23 @@ void SceneLoader::keep_colors(const LoadedScene& shown) {
   }
 }
 
+/// Where fog begins and ends before the scene's camera, by the objects of all frames.
+void SceneLoader::use_fog(Scene& scene) const {
+  if (!choices_.box || !scene.camera) return;
+  const CameraView view = build_camera(*scene.camera, scene.image.width, scene.image.height);
+  const Fog fog = fog_of(scene.image, choices_.box, view);
+  if (!(fog.from < fog.to)) return;
+  scene.image.fog_from = static_cast<float>(fog.from);
+  scene.image.fog_to = static_cast<float>(fog.to);
+}
+
 /// Gives a scene the camera, and the note of it to the first that is returned.
 void SceneLoader::use_choices(LoadedScene& loaded) {
   if (!frames_) return keep_colors(loaded);
-  if (loaded.scene.camera || !choices_.camera) return;
-  loaded.scene.camera = choices_.camera;
+  const bool has_camera = loaded.scene.camera.has_value();
+  if (!has_camera) loaded.scene.camera = choices_.camera;
+  use_fog(loaded.scene);
+  if (has_camera || !choices_.camera) return;
   std::move(choices_.notes.begin(), choices_.notes.end(), std::back_inserter(loaded.notes));
   choices_.notes.clear();
 }

@@ -20,7 +20,7 @@ namespace boule {
 /// Reads the scene that a command names, or makes that of a particle file; in a series anew for
 /// each frame. What the scene leaves to be chosen is chosen once for a series, from all of its
 /// frames, so that nothing jumps from frame to frame: radii, what colours mean, the origin of
-/// coordinates, the floor, the camera.
+/// coordinates, the floor, the camera, the depth of fog.
 class SceneLoader {
  public:
   /// How much of a series is read for its choices: about ten seconds.
@@ -59,10 +59,11 @@ class SceneLoader {
     std::optional<Vec3d> origin;
     SeriesChoices particles;
     std::vector<ParticleColors> colors;
-    std::optional<LookFloor> floor;  ///< of a particle file
-    std::optional<Camera> camera;    ///< if the scene has none
-    std::optional<Turntable> table;  ///< if it turns
-    std::vector<std::string> notes;  ///< that are still to be told
+    std::optional<LookFloor> floor;   ///< of a particle file
+    std::optional<Camera> camera;     ///< if the scene has none
+    std::optional<SphereBounds> box;  ///< from which fog has its depths
+    std::optional<Turntable> table;   ///< if it turns
+    std::vector<std::string> notes;   ///< that are still to be told
   };
 
   [[nodiscard]] bool shows_particle_file(const std::string& path) const;
@@ -77,6 +78,7 @@ class SceneLoader {
   void keep_floor_and_camera(const SeriesSurvey& survey, std::size_t frames);
   void keep_colors(const LoadedScene& shown);
   void use_choices(LoadedScene& loaded);
+  void use_fog(Scene& scene) const;
 
   const std::string path_;  ///< with a slot for the frame's number
   LookOptions look_;

@@ -45,9 +45,17 @@ void SeriesSurvey::add(int frame, const LoadedScene& loaded,
     fitter_.emplace(scene.fit, view_of(scene), width, height);
   }
   add_spheres(scene, *fitter_);
+  add_bounds(bounds_of(scene));
   if (!floor) return;
   const double lowest = *lowest_along(floor->up, loaded);
   lowest_ = std::min(lowest_.value_or(lowest), lowest);
+}
+
+void SeriesSurvey::add_bounds(const SphereBounds& more) {
+  const auto [low, high] = bounds_.value_or(more);
+  const Vec3d &l = more.low, &h = more.high;
+  bounds_ = {{std::min(low.x, l.x), std::min(low.y, l.y), std::min(low.z, l.z)},
+             {std::max(high.x, h.x), std::max(high.y, h.y), std::max(high.z, h.z)}};
 }
 
 SeriesChoices SeriesSurvey::choices(std::size_t count) const {

@@ -10,6 +10,7 @@
 #include "render/apps/job/render_job.h"
 #include "render/files/scene_file/scene_file.h"
 #include "render/prepare/camera_fitter.h"
+#include "render/prepare/sphere_bounds.h"
 
 namespace boule {
 
@@ -44,16 +45,22 @@ class SeriesSurvey {
   /// Where all spheres begin along the floor's `up`; none without spheres or a floor.
   [[nodiscard]] std::optional<double> lowest() const { return lowest_; }
 
+  /// The box around all spheres and capsules.
+  [[nodiscard]] const std::optional<SphereBounds>& bounds() const { return bounds_; }
+
   /// "all 4 frames", "3 of the 4 frames".
   [[nodiscard]] std::string text(std::size_t count) const;
 
  private:
+  void add_bounds(const SphereBounds& more);
+
   SizeChoice size_;
   std::size_t frames_ = 0;
   std::optional<int> first_shown_;
   SeriesChoices choices_;
   std::optional<CameraFitter> fitter_;
   std::optional<double> lowest_;
+  std::optional<SphereBounds> bounds_;
 };
 
 }  // namespace boule

@@ -34,7 +34,8 @@ bool is_possible(const FilmPixel& pixel) {
   for (const double sum : {pixel.r, pixel.g, pixel.b}) {
     if (!(std::isfinite(sum) && sum >= 0)) return false;
   }
-  return pixel.samples >= 0 && pixel.covered <= static_cast<std::uint32_t>(pixel.samples);
+  return pixel.samples >= 0 &&
+         pixel.covered <= std::uint64_t{whole_coverage} * static_cast<std::uint64_t>(pixel.samples);
 }
 
 bool is_possible(const MeasuredPixel& pixel) {

@@ -60,6 +60,13 @@ RunFacts facts_of(const RenderOptions& options, std::uint64_t scene_hash,
     facts.emplace_back("aa", fmt::format("{}", options.aa));
     facts.emplace_back("exposure", fmt::format("{}", options.exposure_stops));
   }
+  if (options.fog > 0) {
+    facts.emplace_back("fog", fmt::format("{}", options.fog));
+    for (const auto& [name, depth] :
+         {std::pair{"fog-from", options.fog_from}, std::pair{"fog-to", options.fog_to}}) {
+      if (depth) facts.emplace_back(name, fmt::format("{}", *depth));
+    }
+  }
   if (options.least_weight > 0)
     facts.emplace_back("least-weight", fmt::format("{}", options.least_weight));
   return facts;

@@ -95,10 +95,12 @@ class ByteWriter {
   template <HasFields T>
   void add(const T& value) {
     std::uint32_t count = 0;
-    each_field(value, [&count](const auto&, const auto& member) { count += says(member) ? 1 : 0; });
+    each_field(value, [&count](const auto& field, const auto& member) {
+      count += says(field.key, member) ? 1 : 0;
+    });
     add(count);
     each_field(value, [this](const auto& field, const auto& member) {
-      if (!says(member)) return;
+      if (!says(field.key, member)) return;
       ByteWriter own;
       own.add(member);
       this->add(field.key);
@@ -110,11 +112,18 @@ class ByteWriter {
 
  private:
   /// Without capsules or clips a scene has the bytes that versions without them give it and read.
-  static bool says(const std::vector<Capsule>& capsules) { return !capsules.empty(); }
-  static bool says(const std::vector<Clip>& clips) { return !clips.empty(); }
-  static bool says(const OutlineGroups& groups) { return !groups.empty(); }
+  /// The same without groups of outlines, and without fog.
+  static bool says(std::string_view, const std::vector<Capsule>& capsules) {
+    return !capsules.empty();
+  }
+  static bool says(std::string_view, const std::vector<Clip>& clips) { return !clips.empty(); }
+  static bool says(std::string_view, const OutlineGroups& groups) { return !groups.empty(); }
+  static bool says(std::string_view key, float number) { return key != "fog" || number != 0; }
+  static bool says(std::string_view key, const std::optional<float>& number) {
+    return !key.starts_with("fog") || number.has_value();
+  }
   template <class T>
-  static bool says(const T&) {
+  static bool says(std::string_view, const T&) {
     return true;
   }
 

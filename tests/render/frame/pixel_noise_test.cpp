@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "core/math/coverage.h"
 #include "core/math/random.h"
 #include "core/math/srgb.h"
 
@@ -45,7 +46,7 @@ TEST(PixelNoise, VarianceEqualsTheBatchMeans) {
   double mean = 0;
   for (int i = 0; i < length * batches; ++i) {
     const float number = numbers[static_cast<std::size_t>(i)];
-    half.add({number, 2 * number, 0}, number < 32 ? 1 : 0);
+    half.add({number, 2 * number, 0}, number < 32 ? whole_coverage : std::uint8_t{0});
     means[static_cast<std::size_t>(i / length)] += static_cast<double>(number) / length;
     mean += static_cast<double>(number) / (length * batches);
   }

@@ -103,7 +103,7 @@ TEST_P(Behind, AlphaIgnoresThePixelOrder) {
 
 TEST_P(Behind, APixelWithoutSamplesTakesAnothersAlpha) {
   Film film({0, 0, 4, 1});
-  film.add(0, 0, gray(0.5f), 1);
+  film.add(0, 0, gray(0.5f), whole_coverage);
   film.add(0, 0, {}, 0);
   const Image partial = partial_picture(film, PixelOrder::frameless, Alpha::coverage);
   EXPECT_EQ(partial.alpha, (std::vector<float>{0.5f, 0.5f, 0.5f, 0.5f}));

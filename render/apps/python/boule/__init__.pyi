@@ -174,6 +174,9 @@ class ImageSettings(_Keys):
     transparent: bool
     outline: float
     overlay: Sequence[_OverlayPart]
+    fog: float
+    fog_from: float | None
+    fog_to: float | None
 
 class RenderSettings(_Keys):
     method: _Method
@@ -661,6 +664,7 @@ def render(
     filter: _Filter | None = ...,
     background: str | None = ...,
     outline: float | str | None = ...,
+    fog: float | None = ...,
     overlay: str | Sequence[_OverlayPart] | None = ...,
     seed: int | None = ...,
     crop: str | Sequence[int] | None = ...,

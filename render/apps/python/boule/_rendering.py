@@ -32,7 +32,7 @@ def render(scene, *, time_limit=None, partial=False, progress=False, frame=None,
     aa: adaptive antialiasing, for method "whitted": pixels that differ from one around by more than
         so many codes of 255 (8, say) get up to spp samples (64), the others one; 0: all get spp.
     background: the colour behind all objects: "#rrggbb" or "transparent". outline: in pixels, or
-        "0.5pt". width ("85mm") and dpi: the size in print; of size the shape counts then.
+        "0.5pt". fog: the share of the background in what is farthest, 0 to 1. width ("85mm") and dpi: the size in print; of size the shape counts then.
     overlay: what is drawn on the picture where it is shown or saved in 8 bits, PDF or SVG: any of
         legend, scale, axes, time, or "none". np.asarray(picture) has none of it.
     seed: of the random numbers. crop: (x0, y0, x1, y1), pixels of the frame to render.

@@ -113,6 +113,24 @@ TEST_F(SceneLoaderTest, CameraFitsTheRadiiOfAll) {
   EXPECT_EQ(eye_of(chosen), eye_of(load_alone(given, 0)));
 }
 
+TEST_F(SceneLoaderTest, FogHasTheDepthsOfAllFrames) {
+  const auto command = series(write("a.xyz", row("A", 3, 4) + row("A", 3, 1)), 1);
+  const ImageSettings one = load_alone(command, 0).scene.image;
+  const ImageSettings other = load_alone(command, 1).scene.image;
+  ASSERT_TRUE(one.fog_from && one.fog_to);
+  EXPECT_EQ(one.fog_from, other.fog_from);
+  EXPECT_EQ(one.fog_to, other.fog_to);
+  EXPECT_LT(*one.fog_from, *one.fog_to);
+  const std::string text =
+      "schema = 1\nimage = { fog_to = 900 }\n[[particles]]\nfile = \"a.xyz\"\n";
+  const ImageSettings given = load_alone(series(write("a.toml", text), 1), 1).scene.image;
+  EXPECT_EQ(given.fog_to, 900);
+  RenderJob single;
+  single.scene = path("a.xyz");
+  SceneLoader loader(single);
+  EXPECT_FALSE(loader.load(std::nullopt).value().scene.image.fog_from);
+}
+
 TEST_F(SceneLoaderTest, SeriesFilesShareTheNotesName) {
   static_cast<void>(write("a.0.xyz", row("A", 3, 4)));
   static_cast<void>(write("a.1.xyz", row("A", 3, 1)));

@@ -24,6 +24,7 @@ const std::function<void(RenderOptions&)> changes[] = {
     [](RenderOptions& o) { o.solver = Solver::fast; },
     [](RenderOptions& o) { o.transparent = true; },
     [](RenderOptions& o) { o.outline = 0.5F; },
+    [](RenderOptions& o) { o.fog = 0.5F; },
     [](RenderOptions& o) { o.aovs.id = true; },
 };
 

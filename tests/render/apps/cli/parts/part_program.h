@@ -12,10 +12,10 @@ class PartTest : public ProgramTest {
  protected:
   /// With everything that a film holds: alpha, lines, channels.
   std::vector<std::string> options(const std::string& spp = "20") const {
-    return {"--size",     "97x61",     "--spp", spp,        "--aov", "depth,id",
-            "-q",         "--outline", "1.5",   "--method", "path",  "--seed",
-            "3",          "--tile",    "16",    "--filter", "tent",  "--background",
-            "transparent"};
+    return {"--size",      "97x61",     "--spp", spp,        "--aov", "depth,id",
+            "-q",          "--outline", "1.5",   "--method", "path",  "--seed",
+            "3",           "--tile",    "16",    "--filter", "tent",  "--background",
+            "transparent", "--fog",     "0.4"};
   }
   /// `render` with those options and more, into a file of the folder.
   std::vector<std::string> render(const std::string& output,
