@@ -9,6 +9,7 @@
 #include "core/scene/instances.h"
 #include "core/scene/principal_pose.h"
 #include "render/prepare/extreme_spheres.h"
+#include "render/prepare/outlying_spheres.h"
 #include "render/prepare/shown_extremes.h"
 
 namespace boule {
@@ -106,13 +107,31 @@ void add_spheres(const Scene& scene, CameraFitter& fitter, const ParallelFor& pa
   extremes.runs(fitter.measures())([&](SphereRun run) { fitter.add(run, parallel_for); });
 }
 
-Camera default_camera(const Scene& scene, int width, int height, const ParallelFor& parallel_for) {
-  if (scene.packed && scene.packed->count > 0) return camera_of_packed(scene, width, height);
-  if (count_primitives(scene).finite() == 0) return camera_without_spheres(scene, width, height);
+namespace {
+
+/// The camera that frames all spheres and capsules.
+Camera camera_around(const Scene& scene, int width, int height, const ParallelFor& parallel_for) {
   const CameraFit fit = settled_fit(scene, parallel_for);
   CameraFitter fitter(fit, view_of(scene, fit, parallel_for), width, height);
   add_spheres(scene, fitter, parallel_for);
   return fitter.camera();
+}
+
+}  // namespace
+
+DefaultCamera choose_camera(const Scene& scene, int width, int height,
+                            const ParallelFor& parallel_for) {
+  if (scene.packed && scene.packed->count > 0) return {camera_of_packed(scene, width, height)};
+  if (count_primitives(scene).finite() == 0) return {camera_without_spheres(scene, width, height)};
+  const Camera all = camera_around(scene, width, height, parallel_for);
+  if (!may_be_specks(scene, all, width, height)) return {all};
+  const auto median = median_sphere(scene);
+  if (!median || !(pixels_across(*median, all, width, height) < 1)) return {all};
+  const auto rest = without_outliers(scene, *median);
+  if (!rest) return {all};
+  const Camera near = camera_around(*rest, width, height, parallel_for);
+  if (!is_better_without(*median, all, near, width, height)) return {all};
+  return {near, true};
 }
 
 }  // namespace boule

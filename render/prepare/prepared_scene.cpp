@@ -121,13 +121,15 @@ Coherence central_coherence(CameraKind kind) {
 Status add_camera(Scene& scene, int width, int height, const ParallelFor& parallel_for,
                   std::vector<std::string>& notes) {
   if (scene.camera) return {};
-  scene.camera = default_camera(scene, width, height, parallel_for);
+  const auto [camera, leaves_out] = choose_camera(scene, width, height, parallel_for);
+  scene.camera = camera;
   if (const auto problem = find_problem(*scene.camera)) {
     return Diagnostic::about("camera",
                              "the scene has no camera, and its objects cannot be framed: camera." +
                                  problem->field + " " + problem->message);
   }
-  if (count_primitives(scene).total() > 0) notes.emplace_back(camera_note);
+  if (count_primitives(scene).total() > 0)
+    notes.emplace_back(std::string(camera_note) + (leaves_out ? left_out_note : ""));
   return {};
 }
 

@@ -208,7 +208,8 @@ void SceneLoader::keep_floor_and_camera(const SeriesSurvey& survey, std::size_t 
   choices_.camera = survey.camera();
   if (!choices_.camera || survey.size() < frames) return;
   const auto count = static_cast<std::size_t>(whole_frames().count());
-  choices_.notes.push_back("the camera is fitted to " + survey.text(count));
+  choices_.notes.push_back("the camera is fitted to " + survey.text(count) +
+                           (survey.leaves_out() ? left_out_note : ""));
 }
 
 /// Keeps what colours mean in a scene that shows some, and in the rest of its series.

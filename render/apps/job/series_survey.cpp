@@ -8,6 +8,7 @@
 #include "core/scene/instances.h"
 #include "render/apps/job/particle_scene.h"
 #include "render/prepare/default_camera.h"
+#include "render/prepare/outlying_spheres.h"
 
 namespace boule {
 
@@ -41,14 +42,31 @@ void SeriesSurvey::add(int frame, const LoadedScene& loaded,
   const Scene& scene = loaded.scene;
   if (count_primitives(scene).finite() == 0) return;
   if (!fitter_) {
-    const auto [width, height] = size_.of(scene.image);
-    fitter_.emplace(scene.fit, view_of(scene), width, height);
+    pixels_ = size_.of(scene.image);
+    fitter_.emplace(scene.fit, view_of(scene), pixels_.width, pixels_.height);
   }
   add_spheres(scene, *fitter_);
+  add_near(scene);
   add_bounds(bounds_of(scene));
   if (!floor) return;
   const double lowest = *lowest_along(floor->up, loaded);
   lowest_ = std::min(lowest_.value_or(lowest), lowest);
+}
+
+/// Adds a frame to what is seen if those far from all others do not matter, once they make the rest
+/// too small.
+void SeriesSurvey::add_near(const Scene& scene) {
+  const auto [width, height] = pixels_;
+  std::optional<Scene> rest;
+  if (may_be_specks(scene, fitter_->camera(), width, height)) {
+    const auto median = median_sphere(scene);
+    if (!median_) median_ = median;
+    if (median) rest = without_outliers(scene, *median);
+  }
+  has_outliers_ = has_outliers_ || rest;
+  const Scene& shown = rest ? *rest : scene;
+  if (!near_) near_.emplace(shown.fit, view_of(shown), width, height);
+  add_spheres(shown, *near_);
 }
 
 void SeriesSurvey::add_bounds(const SphereBounds& more) {
@@ -71,8 +89,13 @@ bool SeriesSurvey::radii_differ() const {
 
 std::optional<Camera> SeriesSurvey::camera() const {
   if (!fitter_) return std::nullopt;
-  Camera camera = fitter_->camera();
+  Camera camera = leaves_out() ? near_->camera() : fitter_->camera();
   return find_problem(camera) ? std::nullopt : std::optional(std::move(camera));
+}
+
+bool SeriesSurvey::leaves_out() const {
+  return has_outliers_ && is_better_without(*median_, fitter_->camera(), near_->camera(),
+                                            pixels_.width, pixels_.height);
 }
 
 std::string SeriesSurvey::text(std::size_t count) const {

@@ -42,6 +42,8 @@ class SeriesSurvey {
   [[nodiscard]] bool radii_differ() const;
   /// None if there are no spheres, or if it would be wrong: the frames by themselves tell why.
   [[nodiscard]] std::optional<Camera> camera() const;
+  /// Whether camera() leaves out spheres far from all others.
+  [[nodiscard]] bool leaves_out() const;
   /// Where all spheres begin along the floor's `up`; none without spheres or a floor.
   [[nodiscard]] std::optional<double> lowest() const { return lowest_; }
 
@@ -53,12 +55,17 @@ class SeriesSurvey {
 
  private:
   void add_bounds(const SphereBounds& more);
+  void add_near(const Scene& scene);
 
   SizeChoice size_;
   std::size_t frames_ = 0;
   std::optional<int> first_shown_;
   SeriesChoices choices_;
-  std::optional<CameraFitter> fitter_;
+  Size pixels_{};                       ///< of the pictures, once there is a fitter
+  std::optional<CameraFitter> fitter_;  ///< of all spheres
+  std::optional<CameraFitter> near_;    ///< without those far from all others in their frame
+  std::optional<Sphere> median_;        ///< of the first frame that looks so small
+  bool has_outliers_ = false;
   std::optional<double> lowest_;
   std::optional<SphereBounds> bounds_;
 };

@@ -104,12 +104,13 @@ Json light_info(const Light& light, const Vec3d& origin) {
 /// Camera, background and lights as they will be rendered, with a note on what the scene lacks.
 void add_surroundings(Json& json, const Scene& scene, const Vec3d& origin) {
   Json notes = Json::array(), lights = Json::array();
-  const Camera camera =
-      scene.camera ? *scene.camera : default_camera(scene, scene.image.width, scene.image.height);
+  const auto [camera, leaves_out] =
+      scene.camera ? DefaultCamera{*scene.camera}
+                   : choose_camera(scene, scene.image.width, scene.image.height);
   if (count_primitives(scene).total() == 0) {
     notes.push_back("no objects in the scene: nothing to be hit");
   } else if (!scene.camera) {
-    notes.push_back(camera_note);
+    notes.push_back(std::string(camera_note) + (leaves_out ? left_out_note : ""));
   }
   for (const Light& light : scene.lights) lights.push_back(light_info(light, origin));
   if (lacks_light(scene, scene.render.method)) {

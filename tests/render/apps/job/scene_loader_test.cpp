@@ -113,6 +113,24 @@ TEST_F(SceneLoaderTest, CameraFitsTheRadiiOfAll) {
   EXPECT_EQ(eye_of(chosen), eye_of(load_alone(given, 0)));
 }
 
+TEST_F(SceneLoaderTest, CameraLeavesOutFarSpheres) {
+  const auto frame = [](double last) {
+    std::string text = "1000\n\n";
+    for (int i = 0; i < 999; ++i)
+      text += "A " + std::to_string(i % 10) + " " + std::to_string(i / 10 % 10) + " " +
+              std::to_string(i / 100) + "\n";
+    return text + "A " + std::to_string(last) + " 0 0\n";
+  };
+  RenderJob one = series(write("a.xyz", frame(9) + frame(90000)), 1);
+  one.look.radius = "0.01";
+  const LoadedScene first = load_alone(one, 0);
+  EXPECT_THAT(first.notes, Contains(HasSubstr("all 2 frames, but not to spheres far from all")));
+  EXPECT_EQ(eye_of(first), eye_of(load_alone(one, 1)));
+  RenderJob other = series(write("b.xyz", frame(9) + frame(9)), 1);
+  other.look.radius = "0.01";
+  EXPECT_EQ(eye_of(first), eye_of(load_alone(other, 0)));
+}
+
 TEST_F(SceneLoaderTest, FogHasTheDepthsOfAllFrames) {
   const auto command = series(write("a.xyz", row("A", 3, 4) + row("A", 3, 1)), 1);
   const ImageSettings one = load_alone(command, 0).scene.image;
