@@ -93,6 +93,10 @@ std::string what_needs_all(const ParticleFrame& some, const ParticleStyle& style
   if (style.boundary || style.replicate != std::array<int, 3>{1, 1, 1})
     return "images are those of all particles";
   if (draws_more_than_spheres(style)) return "bonds and lines are those of all particles";
+  const auto* const lines = std::get_if<OutlineRule>(&style.outline_by);
+  const bool has_groups = !std::holds_alternative<std::monostate>(style.outline_by) &&
+                          (lines == nullptr || *lines != OutlineRule::object);
+  if (has_groups) return "groups of outlines are those of all particles";
   if (radius_needs_all(some, style))
     return "the radius is found from all particles (a given one is not)";
   if (color_needs_all(some, style))
