@@ -50,10 +50,6 @@ inline auto file_and_view_choices() {
       choice<L>(look, "quick", &L::quick, FlagRule{}, "",
                 "A sketch in place of a look: a headlight, 4 samples"),
       choice<L>(look, "floor", &L::floor, FlagRule{}, "", "A floor below the particles"),
-      choice<L>(look, "outline_by", &L::outline_by,
-                TextRule{parse_words, "one of " + list_outline_rules() + ", or a column"}, "RULE",
-                "Outlines around each object, molecule, chain, residue, kind or group of a column, "
-                "and where the depth jumps; depth: there only (depth with sticks, else object)"),
       choice<L>(
           look, "clip", &L::clip,
           TextRule{parse_clip,
@@ -167,6 +163,10 @@ inline auto bond_choices() {
                 "An arrow at each particle: three columns such as fx,fy,fz, or f for them"),
       choice<L>(bonds, "arrow_scale", &L::arrow_scale, TextRule{parse_above_0, above_0}, "S",
                 "Times the vectors of --arrows (1)"),
+      choice<L>(bonds, "outline_by", &L::outline_by,
+                TextRule{parse_words, "one of " + list_outline_rules() + ", or a column"}, "RULE",
+                "Outlines around each object, molecule, chain, residue, kind or group of a column, "
+                "and where the depth jumps; depth: there only (depth with sticks, else object)"),
       choice<L>(bonds, "bond_color", &L::bond_color,
                 TextRule{parse_one_color, "a colour such as #ffffff or silver", ',', hint_color},
                 "COLOR", "Colour of all bonds (half bonds have their particles')"),

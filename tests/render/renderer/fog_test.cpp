@@ -125,7 +125,7 @@ TEST_P(FogTest, LeavesChannelsUnchanged) {
   options.fog = 0.5f;
   const auto foggy = channels();
   ASSERT_EQ(plain.size(), foggy.size());
-  for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(plain[i].values, foggy[i].values);
+  for (std::size_t i = 0; i < plain.size(); ++i) EXPECT_EQ(plain[i].samples, foggy[i].samples);
 }
 
 /// A gradient shows behind, so what is far takes its colours.
