@@ -54,7 +54,7 @@ const std::vector<std::int32_t>& MemberVisitor::finish() {
   return ids_;
 }
 
-BlockBounds bounds_of(const SphereBlock& spheres) {
+BlockBounds block_bounds(const SphereBlock& spheres) {
   Vec3d sum{};
   double count = 0, radius = 0;
   for (std::size_t k = 0; k < bvh_leaf_size; ++k) {

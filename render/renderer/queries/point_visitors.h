@@ -98,7 +98,7 @@ struct BlockBounds {
   Vec3d middle;
   double radius;
 };
-BlockBounds bounds_of(const SphereBlock& spheres);
+BlockBounds block_bounds(const SphereBlock& spheres);
 
 /// Finds the pairs of spheres whose gap is at most a limit, block by block.
 class PairFinder {

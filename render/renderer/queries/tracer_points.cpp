@@ -215,7 +215,7 @@ Result<SpherePairs> Tracer::pairs(double gap) {
     pieces.resize(of_pieces.count());
     bounds.reserve(blocks);
     for (std::size_t block = 0; block < blocks; ++block)
-      bounds.push_back(bounds_of(SphereBlocks(view).at(block).spheres()));
+      bounds.push_back(block_bounds(SphereBlocks(view).at(block).spheres()));
   };
   if (auto done = diagnose(std::cref(make)); !done) return done.error();
   const auto work = [&](unsigned, std::size_t index) {

@@ -25,7 +25,7 @@ std::vector<float> random_numbers(int count) {
 TEST(PixelNoise, AHalfHasEightToSixteenBatches) {
   SampleHalf half;
   for (int i = 1; i <= 5000; ++i) {
-    half.add(gray(1), 1);
+    half.add(gray(1), whole_coverage);
     EXPECT_EQ(half.count(), i);
     if (i < 8) {
       EXPECT_EQ(half.batches(), i);

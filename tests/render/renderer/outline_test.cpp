@@ -263,9 +263,10 @@ TEST(Outline, IsOneAroundSphereAndRod) {
   const std::vector<int> of_objects = line_points(scene);
   scene.outline_groups = {.spheres = {3}, .capsules = {3}, .largest = 3};
   const std::vector<int> of_group = line_points(scene);
-  const int all = std::accumulate(of_objects.begin(), of_objects.end(), 0);
-  const int around = std::accumulate(of_group.begin(), of_group.end(), 0);
-  EXPECT_LT(around, all);
+  // Where the rod comes out of the ball there is a line no more; lines around groups may be wider.
+  int gone = 0;
+  for (std::size_t i = 0; i < of_objects.size(); ++i) gone += of_objects[i] > 0 && of_group[i] == 0;
+  EXPECT_GT(gone, 0);
   scene.planes = {{{0, 0, -8}, {0, 0, 1}, 0}};  // comes before capsules in ids
   EXPECT_EQ(line_points(scene), of_group);
 }

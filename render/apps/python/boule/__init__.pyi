@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from typing import Any, Literal, NamedTuple, Union, overload
+from typing import Any, Literal, NamedTuple, Protocol, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +12,19 @@ __version__: str
 _Color = Union[str, Sequence[float], NDArray[Any]]
 _Vector = Union[Sequence[float], NDArray[Any]]
 _Path = Union[str, os.PathLike[str]]
-_Atoms = Any  # of ASE, MDAnalysis or pymatgen
+
+class _Ase(Protocol):
+    def get_positions(self) -> Any: ...
+
+class _MDAnalysis(Protocol):
+    @property
+    def atoms(self) -> Any: ...
+
+class _Pymatgen(Protocol):
+    @property
+    def cart_coords(self) -> Any: ...
+
+_Atoms = Union[_Ase, _MDAnalysis, _Pymatgen]
 _FovAxis = Literal["x", "y", "max"]
 _Key = Mapping[str, Any]
 _Method = Literal["whitted", "path"]

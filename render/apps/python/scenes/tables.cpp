@@ -213,7 +213,9 @@ py::dict list_fields() {
   all["instance"] = kinds<Instance>();
   py::list scene;
   each_field<Scene>([&](const auto& field) {
-    if (field.key != "packed") scene.append(std::string(field.key));  // known by its file only
+    // Known by a file only.
+    if (field.key == "packed" || field.key == "outline_groups") return;
+    scene.append(std::string(field.key));
   });
   all["scene"] = scene;
   return all;

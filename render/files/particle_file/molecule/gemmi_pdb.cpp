@@ -108,8 +108,11 @@ bool has_unaligned_names(const std::string& records) {
 /// nobody needs whose residue tells what the atom can be.
 std::string_view guess_element(const gemmi::Atom& atom, const RecordNames& names, bool unaligned) {
   if (const auto ion = ion_of_atom(atom.name, names.residue); !ion.empty()) return ion;
-  const bool by_name =
-      unaligned || residue_info(names.residue).found() || atom.element == gemmi::El::X;
+  const gemmi::ResidueInfo residue = residue_info(names.residue);
+  // There is no mercury in them: "Hg13" is the hydrogen that others call "HG13".
+  if (atom.name.starts_with('H') && (residue.is_amino_acid() || residue.is_nucleic_acid()))
+    return "H";
+  const bool by_name = unaligned || residue.found() || atom.element == gemmi::El::X;
   return by_name ? element_of_atom(atom.name, names.residue) : atom.element.name();
 }
 

@@ -147,7 +147,7 @@ TEST_F(FilmFile, ImpossibleSamplesAreRefused) {
   PartSheet sheet(head_.rect, head_.kinds);
   const PixelRect pixel{3, 4, 4, 5};
   for (const FilmPixel& bad : {FilmPixel{-1, 0, 0, 1, 0}, FilmPixel{1, 1, 1, -1, 0},
-                               FilmPixel{1, 1, 1, 2, 3}, FilmPixel{0, 1 / 0.0, 0, 1, 0}}) {
+                               FilmPixel{1, 1, 1, 2, 511}, FilmPixel{0, 1 / 0.0, 0, 1, 0}}) {
     std::string text(reinterpret_cast<const char*>(&bad), sizeof bad);
     text.resize(head_.kinds.pixel_bytes());
     EXPECT_FALSE(sheet.take(pixel, text));

@@ -77,7 +77,7 @@ def test_every_program_option_is_an_argument():
     # a scene its camera.
     not_here = {"camera", "checkpoint", "claim", "mpi", "resume", "shard", "help", "output", "format",
                 "legend", "stats", "quiet", "verbose", "skip_existing", "frames", "turn", "load_limit",
-                "fps", "exposure", "compression"}  # fmt: skip
+                "fps", "exposure", "compression", "interpolate", "preview"}  # fmt: skip
     arguments = set(inspect.signature(boule.render).parameters)
     assert options - not_here <= arguments
     for name in ("exposure", "compression"):

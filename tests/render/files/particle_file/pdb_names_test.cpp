@@ -81,8 +81,9 @@ TEST_F(PdbNames, IonsAreKnownByTheirResidue) {
 TEST_F(PdbNames, ResiduesTellElementsOfUnalignedNames) {
   const ParticleFrame frame =
       read(record("CA   ALA A   1") + record("HG   SER A   2") + record("CD   LYS A   3") +
-           record("SE   MSE A   4") + record("OH2  HOH A   5") + record("HG    HG A   6"));
-  EXPECT_THAT(texts_of(*frame.species), ElementsAre("C", "H", "C", "Se", "Hg"));
+           record("SE   MSE A   4") + record("OH2  HOH A   5") + record("HG    HG A   6") +
+           record("Hg13 VAL A   7"));
+  EXPECT_THAT(texts_of(*frame.species), ElementsAre("C", "H", "C", "Se", "Hg", "H"));
 }
 
 TEST_F(PdbNames, NamesOfResiduesHaveFourLetters) {

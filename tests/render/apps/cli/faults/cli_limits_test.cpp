@@ -60,7 +60,7 @@ TEST_F(Limits, OnAddresses) {
     picture_ = name;
     const std::string whole = whole_picture();
     int done = 0, refused = 0;
-    for (int kibibytes = 12000; kibibytes < 1600000; kibibytes += kibibytes / 8) {
+    for (int kibibytes = 12000; kibibytes < 1600000; kibibytes += kibibytes / 20) {
       const std::string limit = "-v " + std::to_string(kibibytes);
       const ProgramRun run = render_within(limit, "8");
       SCOPED_TRACE(limit + ": " + run.err);

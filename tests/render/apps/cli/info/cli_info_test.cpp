@@ -69,7 +69,7 @@ TEST_F(Info, JsonTellsEverything) {
   EXPECT_EQ(found.at("first_instances"), json::array());
   EXPECT_EQ(found.at("warnings"), json::array());
   EXPECT_EQ(found.at("notes"), json::array());
-  EXPECT_EQ(found.size(), 35u);
+  EXPECT_EQ(found.size(), 36u);
 }
 
 TEST_F(Info, WhatInstancesShowIsCountedAndFramed) {
