@@ -220,31 +220,31 @@ class LoneRay {
       in |= bits(passage.in) << part * width;
     }
     if (in == 0) return false;
-    const auto take = [&] {
-      const int k = std::countr_zero(in);
-      in &= in - 1;
+    const auto take = [&near, &node](unsigned& left) {
+      const int k = std::countr_zero(left);
+      left &= left - 1;
       return Waiting{std::uint64_t{std::bit_cast<std::uint32_t>(near[k])} << 32 | node.child[k]};
     };
     if constexpr (!Ask::ordered) {
       while ((in & (in - 1)) != 0) {
-        waiting_[waiting] = take();
+        waiting_[waiting] = take(in);
         ask.blocks.fetch(waiting_[waiting++].child());
       }
-      next = take().child();
+      next = take(in).child();
       return true;
     }
-    Waiting nearest = take();
+    Waiting nearest = take(in);
     if (in != 0) {
-      Waiting second = take();
+      Waiting second = take(in);
       sort(second, nearest);
       if (in != 0) {
-        Waiting third = take();
+        Waiting third = take(in);
         sort(third, second);
         sort(second, nearest);
         const std::size_t base = waiting;
         waiting_[waiting++] = third;
         while (in != 0) {
-          Waiting other = take();
+          Waiting other = take(in);
           sort(other, second);
           sort(second, nearest);
           std::size_t at = waiting++;
