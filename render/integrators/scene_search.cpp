@@ -15,12 +15,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Hits have none that is larger.
 constexpr double largest_t{std::numeric_limits<float>::max()};
 
-/// Whether a hit comes before another: it is nearer, or as near with a lower id.
-bool comes_before(double t, std::int32_t id, const Hit& other) {
-  return t < other.t ||
-         (t == other.t && static_cast<std::uint32_t>(id) < static_cast<std::uint32_t>(other.id));
-}
-
 /// Whether a point is on the side to which the normal points.
 bool is_beyond(const Plane& plane, const Vec3d& point) {
   return dot(vec_cast<double>(plane.point) - point, vec_cast<double>(plane.normal)) < 0;
@@ -122,9 +116,9 @@ void SceneSearch::cut(const RayStream& rays) {
 }
 
 /// The cap of the lowest id where these chords are cut at t.
-Hit SceneSearch::first_cap(std::span<const Chord> chords, double t) const {
+Hit SceneSearch::first_cap(std::span<const RayChord> chords, double t) {
   Hit cap;
-  for (const Chord& chord : chords) {
+  for (const RayChord& chord : chords) {
     const bool is_cut = chord.enter <= t && t < chord.leave;
     if (is_cut && comes_before(t, chord.id, cap)) cap = {t, chord.id, chord.slot};
   }
@@ -149,7 +143,7 @@ void SceneSearch::find_entered_caps(const RayStream& rays) {
     if (kept_[k].enters != no_primitive && !kept_[k].is_empty()) wanted_.push_back(k);
   }
   want_chords_at(rays, &Kept::from);
-  visit_chords([&](std::size_t i, std::span<const Chord> chords) {
+  visit_chords([&](std::size_t i, std::span<const RayChord> chords) {
     const std::size_t k = wanted_[i];
     caps_[k] = first_cap(chords, kept_[k].from);
     if (caps_[k].id == no_primitive) return;
@@ -168,7 +162,7 @@ void SceneSearch::find_left_caps(const RayStream& rays, const HitStream& hits) {
       wanted_.push_back(k);
   }
   want_chords_at(rays, &Kept::to);
-  visit_chords([&](std::size_t i, std::span<const Chord> chords) {
+  visit_chords([&](std::size_t i, std::span<const RayChord> chords) {
     const std::size_t k = wanted_[i];
     const Hit cap = first_cap(chords, kept_[k].to);
     if (cap.id == no_primitive || !comes_before(cap.t, cap.id, hit_at(hits, k))) return;
@@ -188,16 +182,9 @@ void SceneSearch::find_again(const RayStream& rays, const HitStream& hits) {
   }
   chord_rays_.resize(wanted_.size());
   for (std::size_t i = 0; i < wanted_.size(); ++i) chord_rays_.set(i, cut_rays_.get(wanted_[i]));
-  visit_chords([&](std::size_t i, std::span<const Chord> chords) {
+  visit_chords([&](std::size_t i, std::span<const RayChord> chords) {
     const std::size_t k = wanted_[i];
-    Hit nearest;
-    for (const Chord& chord : chords) {
-      for (const double t : {chord.enter, chord.leave}) {
-        if (kept_[k].holds(t) && comes_before(t, chord.id, nearest))
-          nearest = {t, chord.id, chord.slot};
-      }
-    }
-    put_hit(hits, k, nearest);
+    put_hit(hits, k, first_hit(chords, kept_[k]));
   });
 }
 
@@ -222,36 +209,8 @@ void SceneSearch::meet_planes(const RayStream& rays, const HitStream& hits) {
 /// Calls visit(i, chords) with the chords of each of chord_rays_, in any order.
 template <class Visit>
 void SceneSearch::visit_chords(const Visit& visit) {
-  for (std::size_t first = 0; first < chord_rays_.size();) {
-    const std::size_t stop = list_chords(first);
-    std::size_t begin = 0;
-    for (; first < stop; ++first) {
-      visit(first, std::span<const Chord>(chords_).subspan(begin, chord_ends_[first] - begin));
-      begin = chord_ends_[first];
-    }
-  }
-}
-
-/// The chords of rays first .. , as far as there is room. Returns the ray that it stops at.
-std::size_t SceneSearch::list_chords(std::size_t first) {
-  constexpr std::size_t fewest = 4096;
-  chord_ends_.resize(chord_rays_.size());
-  std::size_t stop = first;
-  for (;;) {
-    const ChordStream stream{enter_.data(), leave_.data(), chord_id_.data(), chord_slot_.data(),
-                             enter_.size()};
-    stop = kernels_.find_chords(geometry_, chord_rays_.view(), first, stream, chord_ends_.data());
-    if (stop > first) break;
-    const std::size_t more = std::max(fewest, 2 * enter_.size());
-    leave_.resize(more);
-    chord_id_.resize(more);
-    chord_slot_.resize(more);
-    enter_.resize(more);
-  }
-  chords_.resize(chord_ends_[stop - 1]);
-  for (std::size_t i = 0; i < chords_.size(); ++i)
-    chords_[i] = {enter_[i], leave_[i], chord_id_[i], chord_slot_[i]};
-  return stop;
+  // Of exact copies the tree has two: one of them is met whatever the ray leaves.
+  lists_.visit(kernels_, geometry_, chord_rays_.view(), visit, [](std::size_t, std::size_t) {});
 }
 
 }  // namespace boule

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "render/integrators/chord_lists.h"
 #include "render/prepare/prepared_scene.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/stream/stream_buffer.h"
@@ -45,11 +46,6 @@ class SceneSearch {
     [[nodiscard]] bool is_empty() const { return !(from < to); }
     [[nodiscard]] bool holds(double t) const { return from < t && t <= to; }
   };
-  struct Chord {
-    double enter, leave;
-    std::int32_t id;
-    std::uint32_t slot;
-  };
 
   [[nodiscard]] Kept kept_part(const Ray& ray) const;
   void cut(const RayStream& rays);
@@ -58,10 +54,9 @@ class SceneSearch {
   void find_left_caps(const RayStream& rays, const HitStream& hits);
   void find_again(const RayStream& rays, const HitStream& hits);
   void meet_planes(const RayStream& rays, const HitStream& hits);
-  [[nodiscard]] Hit first_cap(std::span<const Chord> chords, double t) const;
+  [[nodiscard]] static Hit first_cap(std::span<const RayChord> chords, double t);
   template <class Visit>
   void visit_chords(const Visit& visit);
-  std::size_t list_chords(std::size_t first);
 
   const KernelTable& kernels_;
   GeometryView geometry_;          ///< with planes only where nothing is cut
@@ -79,11 +74,7 @@ class SceneSearch {
   // Of rays whose chords are wanted:
   std::vector<std::size_t> wanted_;
   RayBuffer chord_rays_;
-  std::vector<double> enter_, leave_;
-  std::vector<std::int32_t> chord_id_;
-  std::vector<std::uint32_t> chord_slot_;
-  std::vector<std::size_t> chord_ends_;
-  std::vector<Chord> chords_;
+  ChordLists lists_;
 };
 
 }  // namespace boule

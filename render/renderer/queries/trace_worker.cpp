@@ -9,25 +9,6 @@
 namespace boule {
 namespace {
 
-constexpr std::size_t fewest_chords = 4096;
-
-/// Whether a hit comes before another: it is nearer, or as near with a lower id.
-bool is_before(double t, std::int32_t id, const Hit& other) {
-  return t < other.t ||
-         (t == other.t && static_cast<std::uint32_t>(id) < static_cast<std::uint32_t>(other.id));
-}
-
-/// The nearest hit among the ends of chords.
-Hit first_hit(std::span<const RayChord> chords, const RayInterval& interval) {
-  Hit nearest;
-  for (const RayChord& chord : chords) {
-    for (const double t : {chord.enter, chord.leave}) {
-      if (interval.holds(t) && is_before(t, chord.id, nearest)) nearest = {t, chord.id, chord.slot};
-    }
-  }
-  return nearest;
-}
-
 bool is_nearer_to_enter(double t, const reference::Chord& chord) {
   return t - chord.enter <= chord.leave - t;
 }
@@ -201,39 +182,18 @@ const std::uint8_t* TraceWorker::find_any(const TraceTarget& target) {
   return met_.data();
 }
 
-std::size_t TraceWorker::list_chords(const TraceTarget& target, RayBuffer& rays,
-                                     std::size_t first) {
-  chord_ends_.resize(rays.size());
-  std::size_t stop = first;
-  for (;;) {
-    const ChordStream stream{enter_.data(), leave_.data(), chord_id_.data(), chord_slot_.data(),
-                             enter_.size()};
-    stop = target.kernels.find_chords(target.view, rays.view(), first, stream, chord_ends_.data());
-    if (stop > first) break;
-    const std::size_t more = std::max(fewest_chords, 2 * enter_.size());
-    leave_.resize(more);
-    chord_id_.resize(more);
-    chord_slot_.resize(more);
-    enter_.resize(more);
-  }
-  chords_.resize(chord_ends_[stop - 1]);
-  for (std::size_t k = 0; k < chords_.size(); ++k)
-    chords_[k] = {enter_[k], leave_[k], chord_id_[k], chord_slot_[k]};
-  if (target.geometry.lacks_copies()) add_copies(target.geometry, rays, first, stop);
-  return stop;
-}
-
 /// Adds the chords of spheres that the tree leaves out, as exact copies of two others, `first` and
 /// `second`. The first shows where they are; or the second, if the ray leaves the first.
 void TraceWorker::add_copies(const Geometry& geometry, const RayBuffer& rays, std::size_t first,
                              std::size_t stop) {
+  std::vector<std::size_t>& ends = lists_.ends();
   std::vector<RayChord> all;
   std::size_t at = 0;
   for (std::size_t k = first; k < stop; ++k) {
     const Ray ray = rays.get(k);
     const auto of_source = geometry.copies_of(ray.source);
-    for (; at < chord_ends_[k]; ++at) {
-      const RayChord& chord = chords_[at];
+    for (; at < ends[k]; ++at) {
+      const RayChord& chord = lists_.chords()[at];
       all.push_back(chord);
       if (chord.id == ray.source) continue;
       const bool is_second = !of_source.empty() && of_source[0].second == chord.id;
@@ -246,9 +206,9 @@ void TraceWorker::add_copies(const Geometry& geometry, const RayBuffer& rays, st
         }
       }
     }
-    chord_ends_[k] = all.size();
+    ends[k] = all.size();
   }
-  chords_ = std::move(all);
+  lists_.chords() = std::move(all);
 }
 
 }  // namespace boule

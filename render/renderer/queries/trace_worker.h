@@ -9,6 +9,7 @@
 #include "core/math/ray.h"
 #include "core/reference.h"
 #include "render/frame/traced_hit.h"
+#include "render/integrators/chord_lists.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/geometry/geometry.h"
 #include "simd/stream/stream_buffer.h"
@@ -34,13 +35,6 @@ struct RayInterval {
   }
   /// Whether a hit at t counts.
   [[nodiscard]] bool holds(double t) const { return tmin < t && t <= end(); }
-};
-
-/// A chord of a ray: see ChordStream.
-struct RayChord {
-  double enter, leave;
-  std::int32_t id;
-  std::uint32_t slot;
 };
 
 /// One thread's rays, and the answers to them. A stream has the ends of rays as floats, rounded
@@ -93,21 +87,16 @@ class TraceWorker {
   void settle_ends(const TraceTarget& target);
   std::size_t find_surfaces(const TraceTarget& target, std::size_t first);
   TracedHit traced(const TraceTarget& target, std::size_t k, std::size_t surface);
-  /// The chords of rays first .. , as far as there is room. Returns the ray that it stops at.
-  std::size_t list_chords(const TraceTarget& target, RayBuffer& rays, std::size_t first);
   void add_copies(const Geometry& geometry, const RayBuffer& rays, std::size_t first,
                   std::size_t stop);
 
   template <class Visit>
   void visit_chords(const TraceTarget& target, RayBuffer& rays, const Visit& visit) {
-    for (std::size_t first = 0; first < rays.size();) {
-      const std::size_t stop = list_chords(target, rays, first);
-      std::size_t begin = 0;
-      for (; first < stop; ++first) {
-        visit(first, std::span<const RayChord>(chords_).subspan(begin, chord_ends_[first] - begin));
-        begin = chord_ends_[first];
-      }
-    }
+    lists_.visit(target.kernels, target.view, rays.view(), visit,
+                 [&](std::size_t first, std::size_t stop) {
+                   if (target.geometry.lacks_copies())
+                     add_copies(target.geometry, rays, first, stop);
+                 });
   }
 
   RayBuffer rays_;
@@ -123,11 +112,7 @@ class TraceWorker {
   RayBuffer again_rays_;
   AlignedArray<std::uint8_t> again_met_;
 
-  std::vector<double> enter_, leave_;
-  std::vector<std::int32_t> chord_id_;
-  std::vector<std::uint32_t> chord_slot_;
-  std::vector<std::size_t> chord_ends_;
-  std::vector<RayChord> chords_;
+  ChordLists lists_;
 };
 
 }  // namespace boule
