@@ -11,6 +11,7 @@
 #include "core/optics/camera_ray.h"
 #include "core/reference.h"
 #include "render/renderer/renderer.h"
+#include "simd/dispatch/dispatch.h"
 #include "tests/support/whitted_oracle.h"
 
 namespace boule::test {
@@ -43,6 +44,34 @@ inline int differing_pixels(const Image& a, const Image& b) {
   for (std::size_t i = 0; i < a.pixels.size(); ++i)
     count += same_bits(a.pixels[i], b.pixels[i]) ? 0 : 1;
   return count;
+}
+
+/// The picture has the bits of the reference path, by scalar code and by the machine's widest.
+inline void expect_reference_picture(const Scene& scene) {
+  RenderOptions options = options_of(scene);
+  options.solver = Solver::reference;
+  const Image expected = render(scene, options);
+  options.solver = Solver::robust;
+  for (const char* const isa : {"scalar", "auto"}) {
+    options.isa = isa;
+    options.threads = 3;
+    options.tile = 7;
+    EXPECT_EQ(differing_pixels(render(scene, options), expected), 0) << isa;
+  }
+}
+
+/// Every instruction set makes this picture, alpha included, by other threads and tiles.
+inline void expect_picture_of_all_isas(const Scene& scene, const Image& picture) {
+  RenderOptions options = options_of(scene);
+  for (const IsaInfo& isa : list_isas()) {
+    if (!isa.supported) continue;
+    options.isa = isa.name;
+    options.threads = 3;
+    options.tile = 4;
+    const Image other = render(scene, options);
+    EXPECT_EQ(differing_pixels(picture, other), 0) << isa.name;
+    EXPECT_EQ(picture.alpha, other.alpha) << isa.name;
+  }
 }
 
 /// The oracle's colour of the centre of pixel (x, y).

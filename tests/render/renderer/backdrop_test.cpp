@@ -5,7 +5,6 @@
 
 #include "render/frame/partial_picture.h"
 #include "render/renderer/scene_hash.h"
-#include "simd/dispatch/dispatch.h"
 #include "tests/render/picture_comparison.h"
 #include "tests/support/test_scenes.h"
 
@@ -74,17 +73,7 @@ TEST_P(Behind, AlphaIsTheShareOfHits) {
 
 TEST_P(Behind, AlphaIgnoresThreadsTilesAndIsa) {
   scene_.image.transparent = true;
-  RenderOptions options = options_of(scene_);
-  const Image picture = render(scene_, options);
-  for (const IsaInfo& isa : list_isas()) {
-    if (!isa.supported) continue;
-    options.isa = isa.name;
-    options.threads = 3;
-    options.tile = 4;
-    const Image other = render(scene_, options);
-    EXPECT_EQ(differing_pixels(picture, other), 0) << options.isa;
-    EXPECT_EQ(picture.alpha, other.alpha) << options.isa;
-  }
+  expect_picture_of_all_isas(scene_, render(scene_));
 }
 
 TEST_P(Behind, AlphaIgnoresThePixelOrder) {

@@ -27,16 +27,7 @@ TEST(Capsules, PicturesAreThoseOfTheReferencePath) {
     Scene scene = capsule_scene(width, height);
     scene.image.spp = method == Method::path ? 4 : 1;
     scene.render.method = method;
-    RenderOptions options = options_of(scene);
-    options.solver = Solver::reference;
-    const Image expected = render(scene, options);
-    options.solver = Solver::robust;
-    for (const char* const isa : {"scalar", "auto"}) {
-      options.isa = isa;
-      options.threads = 3;
-      options.tile = 7;
-      EXPECT_EQ(differing_pixels(render(scene, options), expected), 0) << isa;
-    }
+    expect_reference_picture(scene);
   }
 }
 

@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "render/frame/partial_picture.h"
-#include "simd/dispatch/dispatch.h"
 #include "tests/render/picture_comparison.h"
 #include "tests/support/test_scenes.h"
 
@@ -91,15 +90,9 @@ TEST_P(FogTest, IgnoresThreadsTilesCropsOrderAndIsa) {
   scene_.image.spp = 4;
   RenderOptions options = options_of(scene_);
   const Image picture = render(scene_, options);
-  for (const IsaInfo& isa : list_isas()) {
-    if (!isa.supported) continue;
-    options.isa = isa.name;
-    options.threads = 3;
-    options.tile = 4;
-    const Image other = render(scene_, options);
-    EXPECT_EQ(differing_pixels(picture, other), 0) << isa.name;
-    EXPECT_EQ(picture.alpha, other.alpha) << isa.name;
-  }
+  expect_picture_of_all_isas(scene_, picture);
+  options.threads = 3;
+  options.tile = 4;
   options.order = PixelOrder::progressive;
   auto renderer = Renderer::create(scene_, options);
   ASSERT_TRUE(renderer);
