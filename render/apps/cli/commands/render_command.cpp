@@ -79,10 +79,12 @@ ExitCode write_legend(const RenderCommand& command, const SceneLoader& loader) {
 /// A series, frame by frame; with --claim only frames that no other process has.
 class Series {
  public:
-  /// `team` may be null. Its ranks share out the frames where there are more frames than ranks;
-  /// else they render each picture together.
-  Series(const RenderCommand& command, const FrameRange& frames, Team* team)
+  /// `movie` may be null; else the frames go there, and the series ends with it. `team` may be
+  /// null. Its ranks share out the frames where there are more frames than ranks; else they render
+  /// each picture together.
+  Series(const RenderCommand& command, const FrameRange& frames, Team* team, Movie* movie)
       : command_(command),
+        movie_(movie),
         live_(command, frames.count()),
         loader_(command),
         dealing_(team != nullptr && frames.count() > team->size() ? team : nullptr),
@@ -100,6 +102,7 @@ class Series {
   ExitCode run_frame(int number);
 
   const RenderCommand& command_;
+  Movie* const movie_;
   LiveReport live_;
   SeriesTotals totals_;
   SceneLoader loader_;
@@ -118,6 +121,8 @@ ExitCode Series::run() {
     if (!rest_.empty()) nanosleep(&pause, nullptr);
   }
   live_.end_series();
+  const Status finished = movie_ != nullptr ? movie_->finish() : Status();
+  if (!finished) return report(finished.error(), failed);
   if (live_.is_series() && command_.verbosity != Verbosity::quiet)
     print_note("boule: " + printable(shown_output(command_)) + ": " +
                totals_.text(live_.seconds()));
@@ -181,15 +186,16 @@ ExitCode Series::run_frame(int number) {
   return done;
 }
 
-ExitCode run_series(const RenderCommand& command, const FrameRange& frames, Team* team) {
+ExitCode run_series(const RenderCommand& command, const FrameRange& frames, Team* team,
+                    Movie* movie) {
   if (auto done = check_frames(command); !done) return report(done.error(), wrong_usage);
   if (auto done = check_folders(command, frames); !done) return report(done.error(), failed);
-  return Series(command, frames, team).run();
+  return Series(command, frames, team, movie).run();
 }
 
 /// By this process alone, or as the part of it in a team.
-ExitCode run_in(Team* team, const RenderCommand& command) {
-  if (command.frames) return run_series(command, *command.frames, team);
+ExitCode run_in(Team* team, const RenderCommand& command, Movie* movie = nullptr) {
+  if (command.frames) return run_series(command, *command.frames, team, movie);
   if (auto done = check_single(command); !done) return report(done.error(), wrong_usage);
   LiveReport live(command);
   SceneLoader loader(command);
@@ -255,10 +261,7 @@ ExitCode run_movie(RenderCommand command) {
   if (!movie) return report(movie.error(), failed);
   command.movie = std::exchange(command.output, standard_output);
   command.format = StreamFormat::ppm;
-  const ExitCode code = run_in(nullptr, command);
-  if (code != done) return code;
-  const Status finished = movie.value().finish();
-  return finished ? done : report(finished.error(), failed);
+  return run_in(nullptr, command, &movie.value());
 }
 
 }  // namespace
