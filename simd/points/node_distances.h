@@ -91,21 +91,6 @@ class NearNodes {
   std::array<Entry, bvh_max_depth*(bvh_width - 1) + 2> entries_;
 };
 
-/// Calls visit(leaf) for the leaves of a tree whose box is within limit() of a point, the nearest
-/// first as far as boxes tell. The limit may fall from call to call.
-template <class Limit, class Visit>
-void visit_leaves(const BvhView& bvh, const Vec3d& point, const Limit& limit, const Visit& visit) {
-  if (bvh.size == 0) return;
-  NearNodes nodes(bvh, point);
-  while (nodes.take(limit())) {
-    if (nodes.is_leaf()) {
-      visit(nodes.index());
-    } else {
-      nodes.open(limit());
-    }
-  }
-}
-
 /// Which spheres of a block may be within a limit of a point.
 class BlockDistances {
  public:

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "simd/abi/geometry.h"
+#include "simd/points/near_queries.h"
 #include "simd/points/node_distances.h"
 #include "simd/points/point_distance.h"
 #include "simd/points/sphere_blocks.h"
@@ -23,9 +24,10 @@ class PointSearch {
 
   void search(const Vec3d& point) {
     const auto limit = [this] { return visitor_.limit(); };
-    spheres_.visit_near(point, limit, [&](std::size_t block) { meet_block(block, point); });
+    const NearPoint near(point, limit);
+    spheres_.visit_near(near, [&](std::size_t block) { meet_block(block, point); });
     meet_planes();
-    if (geometry_.capsules.slots > 0) meet_capsules(point);
+    if (geometry_.capsules.slots > 0) meet_capsules(near);
   }
 
  private:
@@ -47,7 +49,8 @@ class PointSearch {
     }
   }
 
-  void meet_capsules(const Vec3d& point) {
+  template <class Near>
+  void meet_capsules(const Near& near) {
     const CapsuleView& capsules = geometry_.capsules;
     const auto meet = [&](std::size_t index) {
       const CapsuleBlock& block = capsules.blocks[index];
@@ -61,9 +64,7 @@ class PointSearch {
     };
     const std::size_t scanned = capsules.scanned / bvh_leaf_size;
     for (std::size_t block = 0; block < scanned; ++block) meet(block);
-    visit_leaves(
-        capsules.bvh, point, [this] { return visitor_.limit(); },
-        [&](std::uint32_t leaf) { meet(scanned + leaf); });
+    near.visit(capsules.bvh, [&](std::uint32_t leaf) { meet(scanned + leaf); });
   }
 
   const GeometryView& geometry_;

@@ -7,7 +7,7 @@
 
 #include "simd/abi/geometry.h"
 #include "simd/geometry/part_placement.h"
-#include "simd/points/node_distances.h"
+#include "simd/points/near_queries.h"
 
 namespace boule {
 
@@ -69,46 +69,34 @@ class SphereBlocks {
     return {after[-1], block - after[-1].first_slot / bvh_leaf_size};
   }
 
-  /// Calls visit(block) for the blocks that may hold spheres within limit() of a point. The limit
-  /// may fall from call to call.
-  template <class Limit, class Visit>
-  void visit_near(const Vec3d& point, const Limit& limit, const Visit& visit) const {
+  /// Calls visit(block) for the blocks that may hold spheres near what a query asks for: NearPoint
+  /// or NearBox.
+  template <class Query, class Visit>
+  void visit_near(const Query& query, const Visit& visit) const {
     if (geometry_.parts.size > 0) {
-      visit_leaves(geometry_.bvh, point, limit, [&](std::uint32_t part) {
-        visit_part(geometry_.parts.parts[part], point, limit, visit);
+      query.visit(geometry_.bvh, [&](std::uint32_t part) {
+        visit_part(geometry_.parts.parts[part], query, visit);
       });
       return;
     }
     const std::size_t scanned = (geometry_.spheres.scanned + bvh_leaf_size - 1) / bvh_leaf_size;
     for (std::size_t block = 0; block < scanned; ++block) visit(block);
-    visit_leaves(geometry_.bvh, point, limit, [&](std::uint32_t leaf) { visit(scanned + leaf); });
+    query.visit(geometry_.bvh, [&](std::uint32_t leaf) { visit(scanned + leaf); });
   }
 
  private:
-  /// A part's tree is walked in the part's own coordinates. Its spheres are moved to the scene and
-  /// rounded there: `slack` pays for that.
-  template <class Limit, class Visit>
-  void visit_part(const PartView& part, const Vec3d& point, const Limit& limit,
-                  const Visit& visit) const {
-    const PlacementView& place = part.placement;
-    const double scale = place.moves ? place.scale : 1;
-    Vec3d own = point;
-    double slack = 0;
-    if (place.moves) {
-      const Vec3d way = point - place.shift;
-      own = (place.row_x * way.x + place.row_y * way.y + place.row_z * way.z) * (1 / scale);
-      slack = 0x1p-20 * double{geometry_.bvh.extent} + 0x1p-45 * (size_of(way) + size_of(point));
-    }
+  /// A part's tree is walked in the part's own coordinates.
+  template <class Query, class Visit>
+  void visit_part(const PartView& part, const Query& query, const Visit& visit) const {
     const std::size_t first = part.first_slot / bvh_leaf_size;
     const std::size_t scanned = part.scanned / bvh_leaf_size;
     for (std::size_t block = 0; block < scanned; ++block) visit(first + block);
     if (part.nodes == nullptr) return;
-    const auto own_limit = [&] { return (limit() + slack) / scale; };
-    visit_leaves({part.nodes, 1, geometry_.bvh.extent}, own, own_limit,
-                 [&](std::uint32_t leaf) { visit(first + scanned + leaf); });
+    const BvhView bvh{part.nodes, 1, geometry_.bvh.extent};
+    query.in_part(part.placement, double{geometry_.bvh.extent}, [&](const auto& own) {
+      own.visit(bvh, [&](std::uint32_t leaf) { visit(first + scanned + leaf); });
+    });
   }
-
-  static double size_of(const Vec3d& v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
   const GeometryView& geometry_;
 };

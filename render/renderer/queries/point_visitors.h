@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "render/frame/point_lists.h"
 #include "simd/geometry/geometry.h"
 #include "simd/points/point_distance.h"
-#include "simd/points/sphere_blocks.h"
 
 namespace boule {
 
@@ -86,49 +84,6 @@ class MemberVisitor {
   Vec3d point_{};
   double limit_ = 0;
   std::vector<std::int32_t> ids_;
-};
-
-struct SpherePair {
-  std::int32_t first, second;
-  double gap;
-};
-
-/// A ball that holds the spheres of a block; of an empty one the radius is NaN.
-struct BlockBounds {
-  Vec3d middle;
-  double radius;
-};
-BlockBounds block_bounds(const SphereBlock& spheres);
-
-/// Finds the pairs of spheres whose gap is at most a limit, block by block.
-class PairFinder {
- public:
-  /// `bounds`: of all blocks.
-  PairFinder(const Geometry& geometry, const GeometryView& view,
-             std::span<const BlockBounds> bounds, double gap)
-      : geometry_(geometry), blocks_(view), bounds_(bounds), gap_(gap) {}
-
-  /// Appends the pairs of the spheres of a block with one another, and with those of later blocks.
-  /// Precondition: the gap is not NaN.
-  void find(std::size_t block, std::vector<SpherePair>& pairs);
-
- private:
-  struct Near {
-    std::size_t index;
-    PlacedBlock block;
-  };
-
-  void gather(std::size_t block);
-  [[nodiscard]] double limit_of(double radius) const;
-  void pair_up(const Ball& ball, std::int32_t id, const Near& near, std::size_t first_slot,
-               std::vector<SpherePair>& pairs);
-  void add(std::int32_t a, std::int32_t b, double gap, std::vector<SpherePair>& pairs) const;
-
-  const Geometry& geometry_;
-  SphereBlocks blocks_;
-  std::span<const BlockBounds> bounds_;
-  double gap_;
-  std::vector<Near> near_;
 };
 
 }  // namespace boule

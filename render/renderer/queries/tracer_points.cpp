@@ -10,6 +10,7 @@
 #include "core/scene/number_text.h"
 #include "render/frame/stopwatch.h"
 #include "render/memory/available_memory.h"
+#include "render/renderer/queries/pair_finder.h"
 #include "render/renderer/queries/point_order.h"
 #include "render/renderer/queries/point_visitors.h"
 #include "render/renderer/queries/result_room.h"
@@ -204,22 +205,15 @@ Result<SpherePairs> Tracer::pairs(double gap) {
   const Stopwatch watch;
   const GeometryView view = geometry_.view();
   const std::size_t blocks = SphereBlocks(view).size();
-  const std::uint64_t fixed = (std::uint64_t{geometry_.sphere_count()} + 1) * sizeof(std::size_t) +
-                              std::uint64_t{blocks} * sizeof(BlockBounds);
+  const std::uint64_t fixed = (std::uint64_t{geometry_.sphere_count()} + 1) * sizeof(std::size_t);
   if (auto done = check_memory(fixed, "the pairs of spheres need"); !done) return done.error();
   ResultRoom room(fixed, 3 * sizeof(SpherePair));
   const Blocks of_pieces{blocks, 64};
   std::vector<std::vector<SpherePair>> pieces;
-  std::vector<BlockBounds> bounds;
-  const auto make = [&] {
-    pieces.resize(of_pieces.count());
-    bounds.reserve(blocks);
-    for (std::size_t block = 0; block < blocks; ++block)
-      bounds.push_back(block_bounds(SphereBlocks(view).at(block).spheres()));
-  };
+  const auto make = [&] { pieces.resize(of_pieces.count()); };
   if (auto done = diagnose(std::cref(make)); !done) return done.error();
   const auto work = [&](unsigned, std::size_t index) {
-    PairFinder finder(geometry_, view, bounds, gap);
+    PairFinder finder(geometry_, view, gap);
     std::vector<SpherePair> found;
     const std::size_t end = std::min(blocks, (index + 1) * of_pieces.size);
     for (std::size_t block = index * of_pieces.size; block < end && !room.is_full(); ++block) {
