@@ -223,7 +223,7 @@ class XzUnpacker {
 
 Packing packing_of(std::string_view bytes) {
   using std::literals::operator""sv;
-  if (bytes.starts_with("\x1f\x8b"sv)) return Packing::gzip;
+  if (bytes.starts_with("\x1f\x8b\x08"sv)) return Packing::gzip;
   if (bytes.starts_with("\x28\xb5\x2f\xfd"sv)) return Packing::zstandard;
   if (bytes.starts_with("BZh"sv)) return Packing::bzip2;
   if (bytes.starts_with("\xfd\x37zXZ\0"sv)) return Packing::xz;
@@ -244,6 +244,7 @@ Status check_packing(std::string_view bytes) {
                               Other{"7z\xbc\xaf\x27\x1c"sv, "7-Zip", "7z x"}};
   for (const Other& other : others) {
     if (!bytes.starts_with(other.start)) continue;
+    if (bytes.substr(1).starts_with("\0\0\0\0"sv)) continue;  // a number that fills 8 bytes
     return Diagnostic::of("it is packed by " + std::string(other.name) +
                           ", which is not read; unpack it first (" + std::string(other.program) +
                           "), or pack it by gzip or zstd");

@@ -95,10 +95,12 @@ Result<const ParticleFormat*> find_format(const std::string& path, std::string_v
   }
   const std::string name = bare_name(path);
   const ParticleFormat* const named = format_of_ending(name);
-  if (named != nullptr && ending_of(name) != "txt") return named;
+  constexpr std::array shared{"txt", "bin", "yaml"};  // endings of many formats
+  const bool is_shared = std::count(shared.begin(), shared.end(), ending_of(name)) > 0;
+  if (named != nullptr && !is_shared) return named;
   if (const ParticleFormat* format = format_of_whole(name)) return format;
   if (const ParticleFormat* format = format_of_content(text)) return format;
-  if (named != nullptr) return named;  // a text of no other format
+  if (named != nullptr) return named;  // its content is of no other format
   if (const ParticleFormat* format = format_of_prefix(name)) return format;
   return Diagnostic::in_file(path,
                              "neither its ending nor its content tells a format of particle files, "
@@ -264,8 +266,9 @@ std::string ParticleFile::cut_text() const {
            packing_whole_.error().message;
   }
   if (whole) return {};
-  return "the file is cut off in frame " + std::to_string(frames()) + " (line " +
-         std::to_string(whole.error().line) + ": " + whole.error().message + ")";
+  const int line = whole.error().line;
+  return "the file is cut off in frame " + std::to_string(frames()) + " (" +
+         (line > 0 ? "line " + std::to_string(line) + ": " : "") + whole.error().message + ")";
 }
 
 Result<std::unique_ptr<FrameParts>> ParticleFile::parts(std::size_t frame) {

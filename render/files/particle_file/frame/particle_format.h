@@ -48,7 +48,8 @@ extern const ParticleFormat npy_format;
 /// PLY in its three encodings: the points are the element "vertex", all others are left out with a
 /// note. "scalar_NAME" is NAME; red, green, blue and alpha of whole numbers are from 0 to 1.
 extern const ParticleFormat ply_format;
-/// Text dumps of LAMMPS: "ITEM: ATOMS" and a row for each particle; frame after frame.
+/// Dumps of LAMMPS, frame after frame: text ("ITEM: ATOMS" and a row for each particle), YAML, or
+/// binary.
 extern const ParticleFormat dump_format;
 /// Data files of LAMMPS, as read_data takes them: one frame.
 extern const ParticleFormat lammps_data_format;

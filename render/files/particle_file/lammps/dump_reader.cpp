@@ -4,12 +4,12 @@
 #include <iterator>
 #include <utility>
 
-#include "core/math/geometry.h"
 #include "render/files/particle_file/frame/particle_format.h"
+#include "render/files/particle_file/lammps/binary_dump.h"
+#include "render/files/particle_file/lammps/dump_columns.h"
 #include "render/files/particle_file/lammps/dump_frames.h"
-#include "render/files/particle_file/lammps/id_order.h"
 #include "render/files/particle_file/lammps/lammps_box.h"
-#include "render/files/particle_file/text/named_columns.h"
+#include "render/files/particle_file/lammps/yaml_dump.h"
 #include "render/files/particle_file/text/text_lines.h"
 #include "render/files/particle_file/text/text_number.h"
 #include "render/files/particle_file/text/text_rows.h"
@@ -61,22 +61,12 @@ class BoxReader {
       if (!row) return row.error();
       rows[i] = std::move(row).value();
     }
-    ParticleCell cell;
-    if (general) {
-      cell = general_cell(rows);
-    } else {
-      const LammpsBox box = box_of(rows, tilted);
-      if (const auto axis = negative_axis(box)) {
-        return error_at_line(first_line_ + static_cast<std::uint64_t>(axis->front() - 'x'),
-                             "the box has a negative length along " + *axis, "BOX BOUNDS");
-      }
-      cell = cell_of(box);
-    }
-    if (!is_finite(cell)) {
-      return error_at_line(first_line_, "the box is larger than the largest number", "BOX BOUNDS");
-    }
+    auto cell = general ? Result<ParticleCell>(general_cell(rows))
+                        : cell_of_dump(box_of(rows, tilted), first_line_);
+    if (!cell) return cell;
+    if (!is_finite(cell.value())) return too_large_box(first_line_);
     for (std::size_t i = 0; i < 3; ++i) {
-      cell.periodic[i] = words_.size() < 3 || words_[i].starts_with('p');
+      cell.value().periodic[i] = words_.size() < 3 || words_[i].starts_with('p');
     }
     return cell;
   }
@@ -112,50 +102,6 @@ class BoxReader {
   std::uint64_t first_line_;
 };
 
-/// The columns that a dump's positions are in.
-struct DumpPositions {
-  std::array<std::string, 3> names;
-  std::array<bool, 3> scaled{};
-
-  [[nodiscard]] bool any_scaled() const { return scaled[0] || scaled[1] || scaled[2]; }
-  [[nodiscard]] bool all_scaled() const { return scaled[0] && scaled[1] && scaled[2]; }
-};
-
-/// For each axis: x, else xs (a fraction of the box), else xu (unwrapped), else xsu.
-DumpPositions find_positions(const std::vector<std::string>& names) {
-  DumpPositions found;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    found.names[axis] = std::string(1, static_cast<char>('x' + axis));
-    for (const char* suffix : {"", "s", "u", "su"}) {
-      const std::string name = static_cast<char>('x' + axis) + std::string(suffix);
-      if (std::count(names.begin(), names.end(), name) == 0) continue;
-      found.names[axis] = name;
-      found.scaled[axis] = *suffix == 's';
-      break;
-    }
-  }
-  return found;
-}
-
-/// Makes positions of fractions of the cell.
-void unscale(const DumpPositions& positions, const ParticleCell& cell, std::vector<Vec3d>& points) {
-  const Vec3d o = cell.origin, a = cell.a, b = cell.b, c = cell.c;
-  if (positions.all_scaled()) {
-    for (Vec3d& p : points) p = o + a * p.x + b * p.y + c * p.z;
-    return;
-  }
-  for (Vec3d& p : points) {
-    if (positions.scaled[0]) p.x = o.x + a.x * p.x;
-    if (positions.scaled[1]) p.y = o.y + b.y * p.y;
-    if (positions.scaled[2]) p.z = o.z + c.z * p.z;
-  }
-}
-
-bool is_upright(const ParticleCell& cell) {
-  return cell.a.y == 0 && cell.a.z == 0 && cell.b.x == 0 && cell.b.z == 0 && cell.c.x == 0 &&
-         cell.c.y == 0;
-}
-
 class DumpReader : public PlacedReader<DumpFramePlace> {
  public:
   DumpReader(MappedText bytes, ParticleFileOptions options, FramePlaces<DumpFramePlace> places,
@@ -171,27 +117,14 @@ class DumpReader : public PlacedReader<DumpFramePlace> {
     const std::string_view rows = bytes_.text().substr(atoms.begin, atoms.end - atoms.begin);
     const auto names = column_names(atoms);
     if (!names) return names.error();
-    const DumpPositions positions = find_positions(names.value());
-    NamedColumns columns(options_.wanted, read);
-    add_columns(names.value(), positions, words_of(TextLines(rows).next()), columns);
-    if (auto done = columns.check_positions(); !done) {
-      return error_at_line(atoms.line - 1, done.error().message, done.error().key);
-    }
     const TextRows source{.text = rows,
                           .rows = static_cast<std::size_t>(atoms.rows),
                           .first_line = atoms.line,
                           .lenient = options_.lenient,
                           .positive = options_.positive,
                           .file = &bytes_};
-    if (auto done = read_text_rows(source, columns.columns(), read, parallel_for); !done)
-      return done.error();
-    if (positions.any_scaled()) {
-      if (auto done = check_scaled(positions, read, atoms.line - 1); !done) return done.error();
-      unscale(positions, *read.cell, read.positions);
-      if (auto done = check_finite(read, atoms); !done) return done.error();
-    }
-    if (auto done = sort_by_id(read, atoms.line, parallel_for); !done) return done.error();
-    columns.finish();
+    DumpColumns columns(names.value(), words_of(TextLines(rows).next()), options_, read);
+    if (auto done = columns.read(source, atoms.line - 1, parallel_for); !done) return done.error();
     return read;
   }
 
@@ -222,45 +155,11 @@ class DumpReader : public PlacedReader<DumpFramePlace> {
                          "it does not name its columns, as in ITEM: ATOMS id type x y z");
   }
 
-  static void add_columns(const std::vector<std::string>& names, const DumpPositions& positions,
-                          const std::vector<std::string_view>& examples, NamedColumns& columns) {
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      const auto axis = std::find(positions.names.begin(), positions.names.end(), names[i]);
-      if (axis != positions.names.end()) {
-        columns.add_position(names[i], static_cast<std::size_t>(axis - positions.names.begin()));
-      } else {
-        columns.add(names[i], examples, i);
-      }
-    }
-  }
-
-  /// Fractions of a huge box may be beyond the largest number.
-  static Status check_finite(const ParticleFrame& read, const DumpSection& atoms) {
-    const auto beyond = std::find_if(read.positions.begin(), read.positions.end(),
-                                     [](const Vec3d& p) { return !is_finite(p); });
-    if (beyond == read.positions.end()) return {};
-    const auto row = static_cast<std::uint64_t>(beyond - read.positions.begin());
-    return error_at_line(atoms.line + row, "its position in the box is too large a number");
-  }
-
-  static Status check_scaled(const DumpPositions& positions, const ParticleFrame& read,
-                             std::uint64_t line) {
-    if (!read.cell) {
-      return error_at_line(line, "its positions are fractions of a box, which it does not have",
-                           "BOX BOUNDS");
-    }
-    if (positions.all_scaled() || is_upright(*read.cell)) return {};
-    return error_at_line(line,
-                         "in a tilted box, all of x, y and z must be fractions of it, or none",
-                         positions.names[0]);
-  }
-
   double length_in_angstrom_;
 };
 
-Result<std::unique_ptr<ParticleReader>> open_dump(MappedText bytes,
-                                                  const ParticleFileOptions& options,
-                                                  const ParallelFor&) {
+Result<std::unique_ptr<ParticleReader>> open_text_dump(MappedText bytes,
+                                                       const ParticleFileOptions& options) {
   auto found = find_dump_frames(bytes.text());
   if (!found) return found.error();
   const double length = found.value().length_in_angstrom;
@@ -268,16 +167,32 @@ Result<std::unique_ptr<ParticleReader>> open_dump(MappedText bytes,
       std::make_unique<DumpReader>(std::move(bytes), options, std::move(found).value(), length));
 }
 
+/// True for bytes that no text has near its start, even where a binary file is damaged.
+bool looks_binary(std::string_view bytes) {
+  const std::string_view start = bytes.substr(0, 64);
+  return std::any_of(start.begin(), start.end(),
+                     [](char c) { return c == 0 || static_cast<unsigned char>(c) > 0xF4; });
+}
+
+Result<std::unique_ptr<ParticleReader>> open_dump(MappedText bytes,
+                                                  const ParticleFileOptions& options,
+                                                  const ParallelFor&) {
+  if (starts_like_yaml_dump(bytes.text())) return open_yaml_dump(std::move(bytes), options);
+  if (looks_binary(bytes.text())) return open_binary_dump(std::move(bytes), options);
+  return open_text_dump(std::move(bytes), options);
+}
+
 bool starts_like_dump(std::string_view start) {
   TextLines lines(start);
   lines.skip_blank_lines();
-  return lines.peek().starts_with("ITEM: ");
+  return lines.peek().starts_with("ITEM: ") || starts_like_yaml_dump(start) ||
+         starts_like_binary_dump(start);
 }
 
 }  // namespace
 
 constinit const ParticleFormat dump_format = {.name = "dump",
-                                              .endings = {"dump", "lammpstrj"},
+                                              .endings = {"dump", "lammpstrj", "bin", "yaml"},
                                               .starts_like = starts_like_dump,
                                               .open = open_dump,
                                               .is_trajectory = true,

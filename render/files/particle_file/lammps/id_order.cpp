@@ -23,9 +23,9 @@ Diagnostic id_twice(double id, std::size_t first, std::size_t second, std::uint6
   const std::string text = std::isfinite(id) && std::fabs(id) < 1e15
                                ? std::to_string(static_cast<long long>(id))
                                : number_text(id);
-  return error_at_line(
-      first_line + later,
-      "the id " + text + " is that of line " + std::to_string(first_line + earlier) + " too", "id");
+  const std::string other = first_line > 0 ? "line " + std::to_string(first_line + earlier)
+                                           : "particle " + std::to_string(earlier + 1);
+  return error_at_row(first_line, later, "the id " + text + " is that of " + other + " too", "id");
 }
 
 bool is_whole(double id) { return std::trunc(id) == id; }
@@ -72,14 +72,21 @@ void reorder(std::vector<T>& values, const std::vector<std::size_t>& rows) {
 
 }  // namespace
 
+Diagnostic error_at_row(std::uint64_t first_line, std::uint64_t row, std::string message,
+                        std::string key) {
+  if (first_line > 0) return error_at_line(first_line + row, std::move(message), std::move(key));
+  return Diagnostic::about(std::move(key),
+                           "particle " + std::to_string(row + 1) + ": " + std::move(message));
+}
+
 Status sort_by_id(ParticleFrame& frame, std::uint64_t first_line, const ParallelFor& parallel_for) {
   const NumberColumn* const column = find_number_column(frame, "id");
   if (column == nullptr || column->values.empty()) return {};
   const std::vector<double>& ids = column->values;
   const auto broken = std::find_if(ids.begin(), ids.end(), [](double id) { return !is_whole(id); });
   if (broken != ids.end()) {
-    return error_at_line(first_line + static_cast<std::uint64_t>(broken - ids.begin()),
-                         "the id " + number_text(*broken) + " is no whole number", "id");
+    return error_at_row(first_line, static_cast<std::uint64_t>(broken - ids.begin()),
+                        "the id " + number_text(*broken) + " is no whole number", "id");
   }
   // The last comparison is false for equal ids.
   if (std::adjacent_find(ids.begin(), ids.end(), std::greater_equal<>()) == ids.end()) {

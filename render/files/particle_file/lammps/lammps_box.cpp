@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "render/files/particle_file/text/text_lines.h"
+
 namespace boule {
 
 LammpsBox box_in_bounds(LammpsBox bounds) {
@@ -27,6 +29,21 @@ ParticleCell cell_of(const LammpsBox& box) {
   cell.b = {box.xy, box.hi.y - box.lo.y, 0};
   cell.c = {box.xz, box.yz, box.hi.z - box.lo.z};
   cell.periodic = {true, true, true};
+  return cell;
+}
+
+Diagnostic too_large_box(std::uint64_t line) {
+  return error_at_line(line, "the box is larger than the largest number", "BOX BOUNDS");
+}
+
+Result<ParticleCell> cell_of_dump(const LammpsBox& box, std::uint64_t first_line) {
+  if (const auto axis = negative_axis(box)) {
+    const auto number = static_cast<std::uint64_t>(axis->front() - 'x');
+    return error_at_line(first_line > 0 ? first_line + number : 0,
+                         "the box has a negative length along " + *axis, "BOX BOUNDS");
+  }
+  const ParticleCell cell = cell_of(box);
+  if (!is_finite(cell)) return too_large_box(first_line);
   return cell;
 }
 

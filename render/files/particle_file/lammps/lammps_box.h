@@ -1,10 +1,11 @@
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "core/base/error.h"
 #include "render/files/particle_file/frame/particle_frame.h"
 
 namespace boule {
@@ -24,6 +25,12 @@ LammpsBox box_in_bounds(LammpsBox bounds);
 std::optional<std::string> negative_axis(const LammpsBox& box);
 
 ParticleCell cell_of(const LammpsBox& box);
+
+/// The cell of a dump's box, whose axes are lines from `first_line` on (0: it has no lines). An
+/// error if it has a negative length or numbers that are not finite.
+Result<ParticleCell> cell_of_dump(const LammpsBox& box, std::uint64_t first_line);
+/// The error for a cell that is not finite.
+Diagnostic too_large_box(std::uint64_t line);
 
 /// True for the names of the `units` styles: "real", "metal", "lj" ...
 bool is_lammps_units(std::string_view units);

@@ -13,26 +13,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "render/files/file/load_number.h"
 #include "render/files/particle_file/text/named_columns.h"
 #include "render/memory/available_memory.h"
 
 namespace boule {
 namespace {
-
-/// A number of `T`'s size, whatever the machine's byte order.
-template <class T, bool is_big_endian>
-T load(const char* bytes) {
-  using Bits = std::conditional_t<
-      sizeof(T) == 8, std::uint64_t,
-      std::conditional_t<sizeof(T) == 4, std::uint32_t,
-                         std::conditional_t<sizeof(T) == 2, std::uint16_t, std::uint8_t>>>;
-  std::uint64_t bits = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
-    const std::size_t at = is_big_endian ? sizeof(T) - 1 - i : i;
-    bits |= std::uint64_t{static_cast<unsigned char>(bytes[at])} << (8 * i);
-  }
-  return std::bit_cast<T>(static_cast<Bits>(bits));
-}
 
 /// Values of a column that follow each other, and where their numbers go.
 struct Run {
@@ -48,7 +34,7 @@ void convert(const Run& run, double divisor) {
   const char* from = run.from;
   double* to = run.to;
   for (std::size_t i = 0; i < run.count; ++i, from += run.from_stride, to += run.to_stride) {
-    *to = static_cast<double>(load<T, is_big_endian>(from)) / divisor;
+    *to = static_cast<double>(load_number<T>(from, is_big_endian)) / divisor;
   }
 }
 
@@ -72,7 +58,7 @@ void convert_halves(const Run& run, double divisor) {
   const char* from = run.from;
   double* to = run.to;
   for (std::size_t i = 0; i < run.count; ++i, from += run.from_stride, to += run.to_stride) {
-    *to = half_number(load<std::uint16_t, is_big_endian>(from)) / divisor;
+    *to = half_number(load_number<std::uint16_t>(from, is_big_endian)) / divisor;
   }
 }
 

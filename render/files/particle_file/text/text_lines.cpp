@@ -49,7 +49,7 @@ Diagnostic error_at_line(std::uint64_t line, std::string message, std::string ke
   return {.message = std::move(message),
           .key = std::move(key),
           .line = place_number(line),
-          .column = 1};
+          .column = line > 0 ? 1 : 0};
 }
 
 Diagnostic error_at_word(std::uint64_t line, std::string_view line_text, std::string_view word,

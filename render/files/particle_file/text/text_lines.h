@@ -14,10 +14,11 @@ namespace boule {
 /// lack it.
 class TextLines {
  public:
-  explicit TextLines(std::string_view text) : text_(text) {}
+  /// `line` is the number of the first one.
+  explicit TextLines(std::string_view text, std::uint64_t line = 1) : text_(text), line_(line) {}
 
   [[nodiscard]] bool at_end() const { return offset_ >= text_.size(); }
-  /// Of the next line: its first byte, and its number from 1.
+  /// Of the next line: its first byte, and its number.
   [[nodiscard]] std::size_t offset() const { return offset_; }
   [[nodiscard]] std::uint64_t line() const { return line_; }
 
@@ -35,10 +36,11 @@ class TextLines {
  private:
   std::string_view text_;
   std::size_t offset_ = 0;
-  std::uint64_t line_ = 1;
+  std::uint64_t line_;
 };
 
-/// An error at the start of a line, or at a word of it: `word` is a view of `line_text`.
+/// An error at the start of a line (0: it has no place), or at a word of it: `word` is a view of
+/// `line_text`.
 Diagnostic error_at_line(std::uint64_t line, std::string message, std::string key = {});
 Diagnostic error_at_word(std::uint64_t line, std::string_view line_text, std::string_view word,
                          std::string message, std::string key = {});

@@ -104,7 +104,7 @@ class PieceReader {
   void read() {
     line_number_ = rows_.first_line + piece_.first_line;
     for (row_ = piece_.first_row; row_ < rows_.rows; ++row_, ++line_number_) {
-      if (is_table) skip_gaps();
+      if (is_table && !rows_.is_flow) skip_gaps();
       if (at_ == end_) break;
       line_ = at_;
       if (!read_row()) return;
@@ -114,12 +114,16 @@ class PieceReader {
 
  private:
   char separator() const { return is_table ? separator_ : '\0'; }
+  bool ends_flow(char c) const { return is_table && rows_.is_flow && c == ']'; }
 
-  bool at_row_end() const { return at_ == end_ || *at_ == '\n' || (rows_.comments && *at_ == '#'); }
+  bool at_row_end() const {
+    return at_ == end_ || *at_ == '\n' || (rows_.comments && *at_ == '#') || ends_flow(*at_);
+  }
 
   /// True for what ends a number.
   bool ends_token(const char* at) const {
-    return at == end_ || is_blank(*at) || *at == '\n' || (separator() != 0 && *at == separator());
+    return at == end_ || is_blank(*at) || *at == '\n' || ends_flow(*at) ||
+           (separator() != 0 && *at == separator());
   }
 
   void skip_blanks() {
@@ -136,15 +140,15 @@ class PieceReader {
   }
 
   RowToken token() const {
-    if (is_table && at_ < end_ && *at_ == '"') {
+    if (is_table && at_ < end_ && (*at_ == '"' || (rows_.is_flow && *at_ == '\''))) {
       const char* stop = at_ + 1;
-      while (stop < end_ && *stop != '"' && *stop != '\n') ++stop;
+      while (stop < end_ && *stop != *at_ && *stop != '\n') ++stop;
       const std::string_view text(at_ + 1, static_cast<std::size_t>(stop - at_ - 1));
-      return {text, stop < end_ && *stop == '"' ? stop + 1 : stop};
+      return {text, stop < end_ && *stop == *at_ ? stop + 1 : stop};
     }
     const char* stop = at_;
     const auto ends = [&](char c) {
-      return c == '\n' || (separator() == 0 ? is_blank(c) : c == separator());
+      return c == '\n' || ends_flow(c) || (separator() == 0 ? is_blank(c) : c == separator());
     };
     while (stop < end_ && !ends(*stop)) ++stop;
     const char* last = stop;
@@ -170,14 +174,39 @@ class PieceReader {
   }
 
   bool read_row() {
+    if (is_table && rows_.is_flow && !(takes('-') && takes('['))) return false;
     for (std::size_t i = 0; i < planned_.size(); ++i) {
       if (!go_to_column(i) || !read_column(i)) return false;
     }
     skip_blanks();
     if (separator() == '\t') skip_tabs();
+    if (is_table && rows_.is_flow && !end_flow()) return false;
     if (!at_row_end()) return fail_beyond_columns();
     while (at_ < end_ && *at_ != '\n') ++at_;  // a comment
     if (at_ < end_) ++at_;
+    return true;
+  }
+
+  /// Goes on behind a mark of YAML, which must come next.
+  bool takes(char mark) {
+    skip_blanks();
+    if (at_ == end_ || *at_ != mark) {
+      return fail(planned_.size(), "expected " + quote({&mark, 1}) + ", found " +
+                                       quote({at_, at_ < end_ && *at_ != '\n' ? 1U : 0U}));
+    }
+    ++at_;
+    return true;
+  }
+
+  /// A comma may stand behind the last column.
+  bool end_flow() {
+    const char* const behind = at_;
+    if (at_ < end_ && *at_ == separator()) ++at_;
+    skip_blanks();
+    if (!at_row_end()) at_ = behind;  // a column too many
+    if (!at_row_end()) return fail_beyond_columns();
+    if (!takes(']')) return false;
+    skip_blanks();
     return true;
   }
 
@@ -288,7 +317,7 @@ Status read_text_rows(const TextRows& rows, std::span<const TextRowColumn> colum
   if (auto room = check_room(rows.rows, columns); !room) return room;
   const auto interners = static_cast<std::size_t>(std::count_if(
       columns.begin(), columns.end(), [](const TextRowColumn& c) { return is_text(c.use); }));
-  const RowLines lines = rows.is_table ? RowLines::table : RowLines::every;
+  const RowLines lines = rows.is_table && !rows.is_flow ? RowLines::table : RowLines::every;
   std::vector<TextPiece> pieces = cut_rows(rows.text, interners, parallel_for, lines, rows.file);
   const std::vector<PlannedColumn> planned = plan(rows, columns, frame);
   parallel_for(pieces.size(), [&](std::size_t i) {

@@ -47,6 +47,8 @@ struct TextRows {
   bool is_table = false;
   /// Of tables: what stands between columns, beside blanks around it; 0: blanks alone.
   char separator = 0;
+  /// Of tables: each line is a flow sequence of YAML, "- [ 1, 2, 'C', ]", without gaps between.
+  bool is_flow = false;
   /// Of tables: numbers have a decimal comma, never a point.
   bool decimal_comma = false;
   bool lenient = false;  ///< as ParticleFileOptions

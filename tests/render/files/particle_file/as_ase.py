@@ -7,6 +7,7 @@ which ASE multiplies in another order. Exit code 77: ASE is not there.
 import glob
 import gzip
 import json
+import struct
 import subprocess
 import sys
 import tempfile
@@ -113,6 +114,41 @@ def test_dump(folder):
                 assert [int(s) for s in m["species"]] == e.numbers.tolist()
 
 
+def dump_bytes(tilted, columns, rows, old):
+    """The same as a binary dump, by two processes, in LAMMPS' format before or after 2020."""
+    data = b""
+    for step in range(2):
+        if not old:
+            data += struct.pack("=q10sii", -10, b"DUMPCUSTOM", 1, 2)
+        data += struct.pack("=qqi6i", step, len(rows), tilted, 0, 0, 0, 0, 1, 1)
+        data += struct.pack("=9d", -1, 12, -2, 7, 0, 5, 2, -1, 0.5) if tilted else struct.pack("=6d", -1, 9, -2, 7, 0, 5)
+        data += struct.pack("=i", 5)
+        if not old:
+            names = f"id type {columns} ".encode()
+            data += struct.pack("=i4sbdi", 4, b"real", 1, 0.5 * step, len(names)) + names
+        data += struct.pack("=i", 2)
+        values = [[i + 1, i % 3 + 1, *(x + step for x in row)] for i, row in enumerate(rows)][::-1]
+        for part in values[:7], values[7:]:
+            data += struct.pack(f"=i{5 * len(part)}d", 5 * len(part), *(x for row in part for x in row))
+    return data
+
+
+def test_binary_dump(folder):
+    rows = np.random.default_rng(9).normal(size=(40, 3)).tolist()
+    path = folder / "run.bin"
+    for tilted in [False, True]:
+        for columns in ["x y z", "xu yu zu"]:
+            for old in [False, True]:
+                path.write_bytes(dump_bytes(tilted, columns, rows, old))
+                names = ["id", "type", *columns.split()]
+                expected = ase.io.read(path, index=":", format="lammps-dump-binary", colnames=names)
+                mine = read(path, "dump", ",".join(names)) if old else read(path)
+                assert len(mine) == len(expected) == 2
+                for m, e in zip(mine, expected):
+                    compare(f"binary {columns} tilted={tilted}", m, e, species=False)
+                    assert [int(s) for s in m["species"]] == e.numbers.tolist()
+
+
 def style_of(path):
     """The style of a data file, by its comment or by the columns that its first row has."""
     lines = Path(path).read_text(errors="replace").splitlines()
@@ -174,4 +210,5 @@ with tempfile.TemporaryDirectory() as name:
     test_gro(Path(name))
     test_xyz(Path(name))
     test_dump(Path(name))
+    test_binary_dump(Path(name))
 assert test_data() > 5 or not Path(EXAMPLES).exists()
