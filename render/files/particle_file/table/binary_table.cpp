@@ -109,8 +109,7 @@ std::string text_at(const char* bytes, const BinaryColumn& column) {
     return text;
   }
   for (std::size_t i = 0; i < column.width; i += 4) {
-    const std::uint32_t c = column.is_big_endian ? load<std::uint32_t, true>(bytes + i)
-                                                 : load<std::uint32_t, false>(bytes + i);
+    const auto c = load_number<std::uint32_t>(bytes + i, column.is_big_endian);
     if (c == 0) break;
     append_utf8(text, c);
   }
