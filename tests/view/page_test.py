@@ -428,22 +428,26 @@ class Page(unittest.TestCase):
         self.assertIn("token", self.browser.find("body").text)
         self.assertEqual(self.browser.driver.find_elements("css selector", "canvas"), [])
 
-    def test_a_second_page_takes_over(self):
+    def test_two_pages_steer_one_camera(self):
         browser = self.browser
         driver = browser.driver
         first = driver.current_window_handle
         driver.switch_to.new_window("tab")
+        second = driver.current_window_handle
         try:
             browser.open(self.server.url)
-            driver.switch_to.window(first)
-            browser.wait("document.body.dataset.link === 'taken'", "that it was taken over")
-            browser.find("#link button").click()
-            browser.wait("document.body.dataset.link === 'open'", "that it was taken back")
-            browser.rest()
-            driver.switch_to.window(driver.window_handles[1])
-            browser.wait("document.body.dataset.link === 'taken'", "that it was taken over")
+            for moving, watching, eye in [(second, first, [0, 2, 7]), (first, second, [1, 3, 6])]:
+                driver.switch_to.window(moving)
+                browser.script("bouleView.session.move({eye: arguments[0]}, true); bouleView.session.rest()", eye)
+                browser.rest()
+                pixels = browser.pixels()
+                driver.switch_to.window(watching)
+                browser.wait(f"bouleView.session.camera.eye[1] === {eye[1]}", "the other page's camera")
+                browser.rest()
+                self.assertEqual(browser.camera()["eye"], eye)
+                self.assertEqual(browser.pixels(), pixels)
         finally:
-            driver.switch_to.window(driver.window_handles[1])
+            driver.switch_to.window(second)
             driver.close()
             driver.switch_to.window(first)
 

@@ -14,6 +14,8 @@
 /// What clients send (docs/view_protocol.md).
 namespace boule::view {
 
+/// `client` below is who sent the message; its reader leaves it at 0.
+
 /// The longest message, in bytes.
 inline constexpr std::size_t longest_message = 16384;
 
@@ -21,6 +23,7 @@ struct CameraMessage {
   std::uint32_t number = 0;
   CameraEdit edit;
   bool moving = false;
+  int client = 0;
 };
 
 /// Any keys of a pane's settings.
@@ -55,12 +58,14 @@ struct FrameMessage {
 struct PickMessage {
   std::uint32_t id = 0;
   int pane = 0, x = 0, y = 0;
+  int client = 0;
 };
 
 struct SaveMessage {
   std::uint32_t id = 0;
   int pane = 0;
   std::optional<int> spp;
+  int client = 0;
 };
 
 struct StopSavingMessage {};
@@ -68,6 +73,7 @@ struct StopSavingMessage {};
 struct TextsMessage {
   std::uint32_t id = 0;
   int pane = 0;
+  int client = 0;
 };
 
 struct AckMessage {

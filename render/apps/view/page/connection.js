@@ -1,10 +1,9 @@
 // The WebSocket: connects, connects again, hands on what comes.
 
-const takenOver = 4001;
 const longestWait = 5000;  // milliseconds between attempts
 
 export class Connection {
-  /** Handlers: `status(kind)` with kind connecting, open, away, refused or taken; `text(message)`;
+  /** Handlers: `status(kind)` with kind connecting, open, away or refused; `text(message)`;
    * `binary(buffer)`. */
   constructor(token, handlers) {
     this.token = token;
@@ -27,7 +26,7 @@ export class Connection {
       if (typeof data === 'string') this.handlers.text(JSON.parse(data));
       else this.handlers.binary(data);
     };
-    socket.onclose = ({code}) => this.closed(code);
+    socket.onclose = () => this.closed();
     this.socket = socket;
   }
 
@@ -36,8 +35,7 @@ export class Connection {
     if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
   }
 
-  async closed(code) {
-    if (code === takenOver) return this.handlers.status('taken');
+  async closed() {
     const refused = await this.isRefused();
     this.handlers.status(refused ? 'refused' : 'away');
     if (refused) return;

@@ -11,6 +11,7 @@ export class Session {
     this.startCamera = null;
     this.startSize = null;
     this.listeners = new Map();
+    this.isMoving = false;
     this.waiting = new Map();  // id -> what to do with the answer
     this.id = 0;
     this.pending = null;  // a camera that waits for the next picture of the screen
@@ -28,6 +29,7 @@ export class Session {
   /** Takes a message of the server. */
   receive(message) {
     if (message.type === 'state') return this.take(message);
+    if (message.type === 'camera') return this.takeCamera(message);
     if (!this.answer(message)) this.tell(message.type, message);
   }
 
@@ -49,23 +51,29 @@ export class Session {
     const isFirst = this.state === null || this.state.scene.path !== state.scene.path;
     this.state = state;
     learnKinds(state.choices.cameras);
-    this.number = Math.max(this.number, state.number);  // the server may know a page before this one
     if (isFirst) {
       this.startCamera = structuredClone(state.start?.camera ?? state.camera);
       this.startSize = state.start?.size ?? state.settings.size;
     }
-    // A state from before our last camera has an old one.
-    if (!this.camera || isFirst || state.number >= this.cameraNumber) {
-      this.camera = structuredClone(state.camera);
-      this.tell('camera', this.camera);
-    }
+    if (isFirst) this.camera = null;
+    this.takeCamera(state);
     this.tell('state', state);
+  }
+
+  /** Takes the camera of the server, which another page may have moved. One from before our last is old,
+   * and while we move it ours counts. */
+  takeCamera({number, camera}) {
+    this.number = Math.max(this.number, number);  // all pages count on from the largest
+    if (this.camera && (number < this.cameraNumber || this.pending || this.isMoving)) return;
+    this.camera = structuredClone(camera);
+    this.tell('camera', this.camera);
   }
 
   /** A connection began: the numbers count from what the server shows. */
   restart() {
     this.camera = null;
     this.pending = null;
+    this.isMoving = false;
     this.number = 0;
     this.cameraNumber = 0;
     for (const {reject} of this.waiting.values()) reject(new Error('the connection was lost'));

@@ -19,7 +19,6 @@ const links = {
   open: 'Connected',
   away: 'The server is away. Trying again …',
   refused: 'The server asks for another token. Open the address that it printed.',
-  taken: 'This view was opened elsewhere.',
 };
 
 const session = new Session();
@@ -54,12 +53,7 @@ async function clicked(pane, x, y, mode = document.querySelector('#click-mode in
 function showLink(kind) {
   const link = byId('link');
   link.dataset.kind = kind;
-  link.replaceChildren(links[kind]);
-  if (kind === 'taken') {
-    const back = make('button', {type: 'button', textContent: 'Take it back'});
-    back.addEventListener('click', () => session.connection.connect());
-    link.append(' ', back);
-  }
+  link.textContent = links[kind];
   document.body.dataset.link = kind;
   if (kind === 'connecting') session.restart();
 }

@@ -6,13 +6,13 @@
 
 namespace boule::view {
 
-Result<SaveJob> SaveJob::create(std::uint32_t id, Scene scene, const RenderOptions& options) {
+Result<SaveJob> SaveJob::create(Scene scene, const RenderOptions& options) {
   Scheduler scheduler(options.threads);
   auto prepared = prepare(std::move(scene), options.width, options.height, scheduler.parallel_for(),
                           options.method);
   if (!prepared) return prepared.error();
   if (options.transparent) prepared.value().backdrop = Color{};
-  SaveJob job(id);
+  SaveJob job;
   if (auto done = job.pane_->start(
           std::make_shared<const PreparedScene>(std::move(prepared).value()), options);
       !done)

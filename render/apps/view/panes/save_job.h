@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 
@@ -15,19 +14,17 @@ namespace boule::view {
 class SaveJob {
  public:
   /// `scene` has the camera; the options are those of the picture.
-  static Result<SaveJob> create(std::uint32_t id, Scene scene, const RenderOptions& options);
+  static Result<SaveJob> create(Scene scene, const RenderOptions& options);
 
   Status step(const StepLimit& limit) { return pane_->step(limit); }
   [[nodiscard]] bool done() const { return pane_->done(); }
   [[nodiscard]] double share() const { return pane_->progress().share; }
   /// The picture as boule render makes it. Precondition: done().
   Result<Image> picture();
-  [[nodiscard]] std::uint32_t id() const { return id_; }
 
  private:
-  explicit SaveJob(std::uint32_t id) : id_(id), pane_(std::make_unique<LivePane>()) {}
+  SaveJob() : pane_(std::make_unique<LivePane>()) {}
 
-  std::uint32_t id_;
   std::unique_ptr<LivePane> pane_;
 };
 

@@ -12,12 +12,13 @@
 #include <chrono>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "render/apps/view/messages/client_message.h"
 #include "render/apps/view/server/access.h"
 #include "render/apps/view/server/outer_address.h"
 #include "render/apps/view/server/page_files.h"
-#include "render/apps/view/session/outbox.h"
+#include "render/apps/view/session/audience.h"
 #include "render/apps/view/session/picture_store.h"
 #include "render/apps/view/session/view_session.h"
 
@@ -38,7 +39,6 @@ using std::chrono::seconds;
 constexpr std::size_t longest_header = 8192, most_connections = 64;
 constexpr seconds longest_request{10}, longest_download{600};
 constexpr int most_messages = 2000;  // in a second
-constexpr auto taken_over = static_cast<websocket::close_code>(4001);
 
 class SocketClient;
 
@@ -47,7 +47,7 @@ struct Hub {
   asio::io_context io{1};
   const ServerSettings* settings = nullptr;
   ViewSession* session = nullptr;
-  std::weak_ptr<SocketClient> client;  ///< the one that has the session
+  std::vector<std::weak_ptr<SocketClient>> clients;  ///< those of the session
   std::size_t connections = 0;
   std::chrono::steady_clock::time_point last_seen = std::chrono::steady_clock::now();
 };
@@ -66,17 +66,17 @@ class Counted {
 
 std::string_view view_of(beast::string_view text) { return {text.data(), text.size()}; }
 
-/// The client that has the session: its messages go in, and what the outbox holds goes out, one
-/// message at a time.
+/// A client of the session: its messages go in, and what its outbox holds goes out, one message at
+/// a time.
 class SocketClient : public std::enable_shared_from_this<SocketClient> {
  public:
   SocketClient(Hub& hub, beast::tcp_stream stream)
       : hub_(hub), counted_(hub), socket_(std::move(stream)), deadline_(hub.io) {}
 
   ~SocketClient() {
-    if (!accepted_ || !is_current_) return;
+    if (!outbox_) return;
     hub_.last_seen = std::chrono::steady_clock::now();
-    hub_.session->disconnect();
+    hub_.session->disconnect(number_);
   }
 
   void accept(const Request& request) {
@@ -94,10 +94,9 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
 
   /// Sends what waits, if nothing is being sent.
   void pump() {
-    if (!accepted_ || !is_current_ || sending_) return;
-    Outbox& outbox = hub_.session->outbox();
-    if (outbox.overflowed()) return close(websocket::close_code::policy_error);
-    auto message = outbox.take();
+    if (!outbox_ || sending_) return;
+    if (outbox_->overflowed()) return close(websocket::close_code::policy_error);
+    auto message = outbox_->take();
     if (!message) return;
     sending_ = true;
     outgoing_ = std::move(message->bytes);
@@ -109,16 +108,10 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
                         });
   }
 
-  /// Another client takes the session.
-  void give_up() {
-    is_current_ = false;
-    close(taken_over);
-  }
-
-  void forget_session() { is_current_ = false; }
+  void forget_session() { outbox_.reset(); }
 
   void close(websocket::close_code code) {
-    if (closing_ || !accepted_) return;
+    if (closing_ || !outbox_) return;
     closing_ = true;
     // A client that reads nothing would let the closing wait: it is cut off.
     deadline_.expires_after(seconds(2));
@@ -131,10 +124,9 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
 
  private:
   void begin() {
-    accepted_ = true;
-    if (const auto before = hub_.client.lock()) before->give_up();
-    hub_.client = weak_from_this();
-    hub_.session->connect();
+    number_ = hub_.session->connect();
+    outbox_ = hub_.session->audience().outbox(number_);
+    hub_.clients.push_back(weak_from_this());
     read();
     pump();
   }
@@ -150,13 +142,13 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
   }
 
   void handle() {
-    if (!is_current_ || closing_) return;
+    if (!outbox_ || closing_) return;
     if (!socket_.got_text()) return close(websocket::close_code::unknown_data);
     if (buffer_.size() > longest_message) return close(websocket::close_code::too_big);
     if (!socket_.is_message_done()) return read();
     if (!has_time_for_more()) return close(websocket::close_code::policy_error);
     const auto data = buffer_.data();
-    hub_.session->receive({static_cast<const char*>(data.data()), data.size()});
+    hub_.session->receive(number_, {static_cast<const char*>(data.data()), data.size()});
     buffer_.consume(buffer_.size());
     read();
   }
@@ -176,7 +168,9 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
   asio::steady_timer deadline_;
   beast::flat_buffer buffer_;
   std::string outgoing_;
-  bool accepted_ = false, is_current_ = true, sending_ = false, closing_ = false;
+  int number_ = 0;                  ///< in the session
+  std::shared_ptr<Outbox> outbox_;  ///< null before and after it has the session
+  bool sending_ = false, closing_ = false;
   std::chrono::steady_clock::time_point second_began_{};
   int messages_ = 0;
 };
@@ -308,7 +302,7 @@ class WebServer::Implementation {
     if (posted_.exchange(true)) return;
     asio::post(hub_.io, [this] {
       posted_ = false;
-      if (const auto client = hub_.client.lock()) client->pump();
+      for_clients([](SocketClient& client) { client.pump(); });
     });
   }
 
@@ -356,7 +350,8 @@ class WebServer::Implementation {
     timer_.expires_after(milliseconds(50));
     timer_.async_wait([this](const Error&) {
       const auto now = std::chrono::steady_clock::now();
-      if (!hub_.client.expired()) hub_.last_seen = now;
+      std::erase_if(hub_.clients, [](const auto& client) { return client.expired(); });
+      if (!hub_.clients.empty()) hub_.last_seen = now;
       const double idle = std::chrono::duration<double>(now - hub_.last_seen).count();
       const bool is_idle = hub_.settings->idle_seconds && idle >= *hub_.settings->idle_seconds;
       if (is_idle || hub_.settings->stop()) return hub_.io.stop();
@@ -364,15 +359,22 @@ class WebServer::Implementation {
     });
   }
 
-  /// Tells the client that the server ends, and waits a moment for its answer.
+  template <class Action>
+  void for_clients(const Action& action) {
+    for (const auto& weak : std::vector(hub_.clients)) {
+      if (const auto client = weak.lock()) action(*client);
+    }
+  }
+
+  /// Tells the clients that the server ends, and waits a moment for their answers.
   void close_all() {
     acceptor_.close();
-    if (const auto client = hub_.client.lock()) client->close(websocket::close_code::normal);
+    for_clients([](SocketClient& client) { client.close(websocket::close_code::normal); });
     hub_.io.restart();
     hub_.io.run_for(milliseconds(300));
     hub_.io.stop();
     // What is left is destroyed with the context, when the session may be gone.
-    if (const auto client = hub_.client.lock()) client->forget_session();
+    for_clients([](SocketClient& client) { client.forget_session(); });
   }
 
   Hub hub_;

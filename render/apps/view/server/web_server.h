@@ -25,8 +25,8 @@ struct ServerSettings {
 /// Whether this build has a server (Boost.Beast).
 bool has_web_server();
 
-/// Serves the page, and one session at a time over a WebSocket (docs/view_protocol.md). A server is
-/// made first, so that the session can call notify() when there is something to send.
+/// Serves the page, and one session to all clients over WebSockets (docs/view_protocol.md). A
+/// server is made first, so that the session can call notify() when there is something to send.
 class WebServer {
  public:
   WebServer();

@@ -1,5 +1,6 @@
 #include "render/apps/view/session/mailbox.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "core/base/float_environment.h"
@@ -30,15 +31,18 @@ Status Mailbox::take(const ClientMessage& message) {
   return {};
 }
 
+void Mailbox::count(std::uint32_t number) { wish_.number = std::max(wish_.number, number); }
+
 Status Mailbox::apply(const CameraMessage& message) {
   auto camera = edited(wish_.camera, message.edit, origin_);
   if (!camera) return camera.error();
   news_.camera_type |= camera.value().index() != wish_.camera.index();
   wish_.camera = std::move(camera).value();
   ++wish_.camera_revision;
-  wish_.number = message.number;
+  count(message.number);
   moving_until_ = message.moving ? Clock::now() + longest_pause : Clock::time_point{};
   news_.camera = true;
+  news_.mover = message.moving ? message.client : 0;
   return {};
 }
 
@@ -62,7 +66,7 @@ Status Mailbox::apply(const SettingsMessage& message) {
       return Diagnostic::about("difference", "needs two panes");
     settings.difference = Difference::none;
   }
-  wish_.number = message.number;
+  count(message.number);
   news_.settings = true;
   wish_.settings = std::move(settings);
   return {};
@@ -74,7 +78,7 @@ Status Mailbox::apply(const ParticlesMessage& message) {
   if (message.color) wish_.look.color = *message.color;
   if (message.map) wish_.look.map = *message.map;
   if (message.range) wish_.look.range = *message.range;
-  wish_.number = message.number;
+  count(message.number);
   news_.scene = true;
   return {};
 }
@@ -83,7 +87,7 @@ Status Mailbox::apply(const FrameMessage& message) {
   if (!limits_.frames || !limits_.frames->holds(message.frame))
     return Diagnostic::about("frame", "there is no such frame");
   wish_.frame = message.frame;
-  wish_.number = message.number;
+  count(message.number);
   news_.scene = true;
   return {};
 }

@@ -16,9 +16,9 @@
 
 namespace boule::view {
 
-/// What a client wants to see. The newest counts.
+/// What the clients want to see. The newest counts.
 struct Wish {
-  std::uint32_t number = 0;  ///< the client's last
+  std::uint32_t number = 0;  ///< the largest of a message that has changed it
   Camera camera;
   std::uint32_t camera_revision = 0;  ///< another one where the camera is another
   ViewSettings settings;
@@ -30,6 +30,7 @@ struct Wish {
 struct News {
   bool stop = false, connected = false, camera = false, settings = false, scene = false;
   bool camera_type = false;  ///< the camera is of another kind: keys were chosen
+  int mover = 0;             ///< the client that moves the camera; 0: it has come to rest
   std::optional<PickMessage> pick;
   std::optional<SaveMessage> save;
   std::optional<TextsMessage> texts;
@@ -40,7 +41,7 @@ struct News {
   }
 };
 
-/// The client's wishes on their way to the thread that renders. Wishes are merged, and of each kind
+/// The clients' wishes on their way to the thread that renders. Wishes are merged, and of each kind
 /// of question the newest waits, so that it never grows. Any thread may use it.
 class Mailbox {
  public:
@@ -80,6 +81,7 @@ class Mailbox {
   void set_origin(const Vec3d& origin);
 
  private:
+  void count(std::uint32_t number);
   Status apply(const CameraMessage& message);
   Status apply(const SettingsMessage& message);
   Status apply(const ParticlesMessage& message);

@@ -4,26 +4,10 @@
 
 namespace boule::view {
 
-void Outbox::reset(bool connected) {
-  const std::lock_guard lock(mutex_);
-  connected_ = connected;
-  overflowed_ = false;
-  texts_.clear();
-  waiting_ = 0;
-  reports_.clear();
-  for (auto& frame : frames_) frame.reset();
-  on_its_way_.reset();
-}
-
-bool Outbox::connected() const {
-  const std::lock_guard lock(mutex_);
-  return connected_;
-}
-
 void Outbox::add_text(std::string text) {
   {
     const std::lock_guard lock(mutex_);
-    if (!connected_ || overflowed_) return;
+    if (overflowed_) return;
     waiting_ += text.size();
     overflowed_ = waiting_ > most_waiting;
     texts_.push_back(std::move(text));
@@ -34,7 +18,6 @@ void Outbox::add_text(std::string text) {
 void Outbox::report(const std::string& name, std::string text) {
   {
     const std::lock_guard lock(mutex_);
-    if (!connected_) return;
     reports_[name] = std::move(text);
   }
   notify_();
@@ -43,7 +26,6 @@ void Outbox::report(const std::string& name, std::string text) {
 void Outbox::add_frame(FrameHeader header, const std::string& picture) {
   {
     const std::lock_guard lock(mutex_);
-    if (!connected_) return;
     header.frame = ++last_frame_;
     const auto head = encode(header);
     Slot slot{std::string(head.data(), head.size()) + picture, header.frame};

@@ -13,7 +13,7 @@
 
 namespace boule::view {
 
-/// What waits to be sent to the client. It never grows without end and never makes anybody wait: of
+/// What waits to be sent to a client. It never grows without end and never makes anybody wait: of
 /// each picture the newest waits, of each kind of report too, and where too many answers wait the
 /// client has stopped reading and is given up. Any thread may use it.
 class Outbox {
@@ -21,10 +21,6 @@ class Outbox {
   /// `notify` is called, on the thread that adds something, when there may be something to send; it
   /// must be quick and call nothing here.
   explicit Outbox(std::function<void()> notify) : notify_(std::move(notify)) {}
-
-  /// A client has come, or gone: forgets all that waits.
-  void reset(bool connected);
-  [[nodiscard]] bool connected() const;
 
   /// An answer, each of which is sent.
   void add_text(std::string text);
@@ -55,7 +51,7 @@ class Outbox {
 
   const std::function<void()> notify_;
   mutable std::mutex mutex_;
-  bool connected_ = false, overflowed_ = false;
+  bool overflowed_ = false;
   std::deque<std::string> texts_;
   std::size_t waiting_ = 0;  ///< bytes of texts_
   std::map<std::string, std::string> reports_;

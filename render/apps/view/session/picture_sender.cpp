@@ -20,12 +20,12 @@ void PictureSender::send(const Image& image, FrameHeader header, float exposure_
     header.code = PictureCode::jpeg;
     const int quality = header.moving ? quality_moving : quality_still;
     const std::string bytes = jpeg_.encode(image, exposure_stops, quality);
-    if (!bytes.empty()) outbox_.add_frame(header, bytes);
+    if (!bytes.empty()) audience_.add_frame(header, bytes);
     return;
   }
   header.code = PictureCode::png;
   const std::string bytes = png_of(image, exposure_stops);
-  if (!bytes.empty()) outbox_.add_frame(header, bytes);
+  if (!bytes.empty()) audience_.add_frame(header, bytes);
 }
 
 bool PictureSender::send_finished(const Image& image, FrameHeader header, float exposure_stops) {
@@ -34,7 +34,7 @@ bool PictureSender::send_finished(const Image& image, FrameHeader header, float 
   header.finished = true;
   header.code = PictureCode::png;
   const std::string bytes = png_of(image, exposure_stops);
-  if (!bytes.empty()) outbox_.add_frame(header, bytes);
+  if (!bytes.empty()) audience_.add_frame(header, bytes);
   return !bytes.empty();
 }
 

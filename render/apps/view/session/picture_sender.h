@@ -4,15 +4,15 @@
 
 #include "render/apps/view/messages/frame_message.h"
 #include "render/apps/view/panes/jpeg.h"
-#include "render/apps/view/session/outbox.h"
+#include "render/apps/view/session/audience.h"
 #include "render/image/image.h"
 
 namespace boule::view {
 
-/// Makes frames of pictures and gives them to the outbox. One thread uses it.
+/// Makes frames of pictures and gives them to the audience. One thread uses it.
 class PictureSender {
  public:
-  explicit PictureSender(Outbox& outbox) : outbox_(outbox) {}
+  explicit PictureSender(Audience& audience) : audience_(audience) {}
 
   /// Sends a picture that will change: as JPEG, or as PNG where there is none.
   void send(const Image& image, FrameHeader header, float exposure_stops);
@@ -20,7 +20,7 @@ class PictureSender {
   bool send_finished(const Image& image, FrameHeader header, float exposure_stops);
 
  private:
-  Outbox& outbox_;
+  Audience& audience_;
   JpegEncoder jpeg_;
 };
 

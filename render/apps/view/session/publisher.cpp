@@ -61,7 +61,7 @@ void Publisher::publish(const Wish& wish) {
   const bool moving = stage_.shape().kind == StageKind::moving;
   const bool urgent = sent_number_ != wish.number || moving || stage_.done();
   if (!urgent && now < last_sent_ + time_between_frames) return;
-  if (outbox_.holds_frame(0) && sent_number_ == wish.number && !stage_.done()) return;
+  if (audience_.holds_frame(0) && sent_number_ == wish.number && !stage_.done()) return;
   dirty_ = false;
   last_sent_ = now;
   sent_number_ = wish.number;
@@ -115,7 +115,7 @@ void Publisher::report_statistics(const Wish& wish) {
   if (!last && (stage_.done() || now < last_report_ + time_between_reports)) return;
   last_report_ = now;
   report_due_ = false;
-  outbox_.report("statistics", statistics_text(wish.number, stage_, difference_));
+  audience_.report("statistics", statistics_text(wish.number, stage_, difference_));
 }
 
 }  // namespace boule::view

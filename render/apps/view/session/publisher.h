@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "render/apps/view/session/audience.h"
 #include "render/apps/view/session/mailbox.h"
-#include "render/apps/view/session/outbox.h"
 #include "render/apps/view/session/pane_stage.h"
 #include "render/apps/view/session/picture_sender.h"
 #include "render/apps/view/session/state_text.h"
@@ -13,12 +13,13 @@
 namespace boule::view {
 
 /// Sends what a stage has rendered, and its statistics: as often as somebody can see it. The stage
-/// and the outbox must outlive it.
+/// and the audience must outlive it.
 class Publisher {
  public:
   using Clock = Mailbox::Clock;
 
-  Publisher(PaneStage& stage, Outbox& outbox) : stage_(stage), outbox_(outbox), sender_(outbox) {}
+  Publisher(PaneStage& stage, Audience& audience)
+      : stage_(stage), audience_(audience), sender_(audience) {}
 
   /// The stage begins anew.
   void begin();
@@ -40,7 +41,7 @@ class Publisher {
   [[nodiscard]] FrameHeader header(const Wish& wish, int pane) const;
 
   PaneStage& stage_;
-  Outbox& outbox_;
+  Audience& audience_;
   PictureSender sender_;
   std::optional<DifferenceFigures> difference_;  ///< as it was sent last
   bool dirty_ = false;                           ///< there is more to see than was sent

@@ -239,6 +239,11 @@ std::string state_text(const ShownState& shown) {
        {"choices", choices_json()}});
 }
 
+std::string camera_text(std::uint32_t number, const Camera& camera, const Vec3d& origin) {
+  return Json{{"type", "camera"}, {"number", number}, {"camera", camera_json(camera, origin)}}
+      .dump();
+}
+
 std::string statistics_text(std::uint32_t number, PaneStage& stage,
                             const std::optional<DifferenceFigures>& difference) {
   Json panes = Json::array();

@@ -33,6 +33,9 @@ struct ShownState {
 };
 std::string state_text(const ShownState& shown);
 
+/// The camera alone, where another client has moved it.
+std::string camera_text(std::uint32_t number, const Camera& camera, const Vec3d& origin);
+
 /// How far two panes are apart.
 struct DifferenceFigures {
   std::size_t pixels = 0;  ///< that differ

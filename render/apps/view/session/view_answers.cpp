@@ -24,7 +24,8 @@ std::string word(const std::string& text) {
 
 void ViewLoop::send_texts(const TextsMessage& message) {
   const Vec3d& origin = stage_.loaded().origin;
-  parts_.outbox.add_text(texts_text(message.id, camera_toml(wish_.camera, origin),
+  parts_.audience.answer(message.client,
+                         texts_text(message.id, camera_toml(wish_.camera, origin),
                                     command_of(static_cast<std::size_t>(message.pane))));
 }
 
@@ -50,24 +51,24 @@ std::string ViewLoop::command_of(std::size_t index) const {
 }
 
 void ViewLoop::save(const SaveMessage& message) {
+  const Asker asker{message.client, message.id};
   if (saver_.is_busy())
-    return saver_.refuse(Diagnostic::of("a picture is being saved already"), message.id);
+    return saver_.refuse(Diagnostic::of("a picture is being saved already"), asker);
   const auto pane = static_cast<std::size_t>(message.pane);
   if (pane >= wish_.settings.panes.size()) return;  // the panes have changed meanwhile
   RenderOptions options = stage_.options(wish_, pane);
   options.spp = message.spp.value_or(options.spp);
   const bool is_shown = !must_begin_ && !failed_ && stage_.started() && stage_.done() &&
                         stage_.shape().kind == StageKind::rest && options.spp == wish_.settings.spp;
-  if (is_shown)
-    return saver_.keep(stage_.pane(pane).picture(), wish_.settings.exposure, message.id);
+  if (is_shown) return saver_.keep(stage_.pane(pane).picture(), wish_.settings.exposure, asker);
   Scene scene = stage_.scene();
   scene.camera = wish_.camera;
-  saver_.begin(message.id, std::move(scene), options);
+  saver_.begin(asker, std::move(scene), options);
 }
 
 void ViewLoop::pick(const PickMessage& message) {
   const auto refuse = [&](const Diagnostic& error) {
-    parts_.outbox.add_text(error_text("pick", error, message.id));
+    parts_.audience.answer(message.client, error_text("pick", error, message.id));
   };
   const auto pane = static_cast<std::size_t>(message.pane);
   const bool is_there = pane < wish_.settings.panes.size() && message.x < wish_.settings.width &&
@@ -86,8 +87,8 @@ void ViewLoop::pick(const PickMessage& message) {
   RayRecord record;
   const auto weight = renderer.value().record_pixel(message.x, message.y, record);
   if (!weight) return refuse(weight.error());
-  parts_.outbox.add_text(
-      picked_text({message, *scene.value(), stage_.loaded(), record, weight.value()}));
+  parts_.audience.answer(message.client, picked_text({message, *scene.value(), stage_.loaded(),
+                                                      record, weight.value()}));
 }
 
 }  // namespace boule::view

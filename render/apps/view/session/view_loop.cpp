@@ -37,8 +37,8 @@ std::string picture_name(const std::string& path, bool numbered) {
 ViewLoop::ViewLoop(const LoopParts& parts, WorkSettings work)
     : parts_(parts),
       stage_(std::move(work)),
-      publisher_(stage_, parts.outbox),
-      saver_(parts.outbox, parts.pictures, picture_name(parts.source.facts().path, false),
+      publisher_(stage_, parts.audience),
+      saver_(parts.audience, parts.pictures, picture_name(parts.source.facts().path, false),
              parts.token) {}
 
 Status ViewLoop::open(LoadedScene loaded, Wish& first) {
@@ -63,7 +63,7 @@ void ViewLoop::run() {
       const News news = parts_.mailbox.wait_until(next_time(), wish_);
       if (news.stop) return;
       handle(news);
-      if (!parts_.outbox.connected()) continue;
+      if (parts_.audience.size() == 0) continue;
       choose_stage();
       if (late_pick_) pick(*std::exchange(late_pick_, std::nullopt));
       render();
@@ -79,7 +79,7 @@ void ViewLoop::run() {
 /// When there is something to do even if nothing comes.
 ViewLoop::Clock::time_point ViewLoop::next_time() const {
   const auto now = Clock::now();
-  if (!parts_.outbox.connected()) return now + std::chrono::hours(1);
+  if (parts_.audience.size() == 0) return now + std::chrono::hours(1);
   if (must_begin_ && !failed_) return now;
   if (is_rendering()) return wish_.settings.pace > 0 ? last_step_ + milliseconds(30) : now;
   if (saver_.is_busy()) return now;
@@ -96,6 +96,7 @@ void ViewLoop::handle(const News& news) {
   if (news.camera || news.settings || news.scene) must_begin_ = true;
   if (must_begin_) failed_ = false;
   if (news.connected || news.settings || news.scene || news.camera_type) send_state();
+  if (news.camera) send_camera(news.mover);
   if (news.connected) publisher_.send_all_again();
   answer(news);
 }
@@ -109,14 +110,14 @@ void ViewLoop::answer(const News& news) {
 
 /// Reads the scene of the wish. If that fails, the wish is taken back.
 void ViewLoop::reload() {
-  parts_.outbox.add_text(busy_text("reading " + parts_.source.facts().path));
+  parts_.audience.add_text(busy_text("reading " + parts_.source.facts().path));
   auto loaded = parts_.source.load(wish_.look, wish_.frame);
-  parts_.outbox.add_text(busy_text({}));
+  parts_.audience.add_text(busy_text({}));
   if (!loaded) {
     wish_.look = shown_wish_.look;
     wish_.frame = shown_wish_.frame;
     parts_.mailbox.correct(wish_);
-    parts_.outbox.add_text(error_text("scene", loaded.error()));
+    parts_.audience.add_text(error_text("scene", loaded.error()));
     return;
   }
   stage_.set_scene(std::move(loaded).value());
@@ -128,15 +129,23 @@ void ViewLoop::reload() {
 }
 
 void ViewLoop::send_state() {
-  parts_.outbox.add_text(state_text(
+  parts_.audience.add_text(state_text(
       {wish_, parts_.source.facts(), stage_.loaded(), columns_, notes_, figures_, start_}));
+}
+
+/// Tells the clients of a camera that another one moves; the mover too, once it rests: others may
+/// have moved it meanwhile.
+void ViewLoop::send_camera(int mover) {
+  if (parts_.audience.size() < 2) return;
+  parts_.audience.report_to_others(mover, "camera",
+                                   camera_text(wish_.number, wish_.camera, stage_.loaded().origin));
 }
 
 void ViewLoop::fail(const std::string& about, const Diagnostic& error) {
   failed_ = true;
   must_begin_ = false;
   saver_.drop();
-  parts_.outbox.add_text(error_text(about, error));
+  parts_.audience.add_text(error_text(about, error));
 }
 
 /// How coarse a moving picture must be. Order frameless need not be: it shows its pixels as they

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "core/base/error.h"
+#include "render/apps/view/session/audience.h"
 #include "render/apps/view/session/mailbox.h"
-#include "render/apps/view/session/outbox.h"
 #include "render/apps/view/session/pane_stage.h"
 #include "render/apps/view/session/picture_saver.h"
 #include "render/apps/view/session/picture_store.h"
@@ -22,7 +22,7 @@ namespace boule::view {
 struct LoopParts {
   SceneSource& source;
   Mailbox& mailbox;
-  Outbox& outbox;
+  Audience& audience;
   PictureStore& pictures;
   std::string token;
 };
@@ -30,7 +30,7 @@ struct LoopParts {
 /// "first_light.png" of "scenes/first_light.toml"; "pour.####.png" of frames with numbers.
 std::string picture_name(const std::string& path, bool numbered);
 
-/// Renders what the client wishes, as it wishes it: the thread that everything is computed on.
+/// Renders what the clients wish, as they wish it: the thread that everything is computed on.
 class ViewLoop {
  public:
   ViewLoop(const LoopParts& parts, WorkSettings work);
@@ -47,6 +47,7 @@ class ViewLoop {
   void answer(const News& news);
   void reload();
   void send_state();
+  void send_camera(int mover);
   void begin();
   void choose_stage();
   [[nodiscard]] StageShape wanted_shape() const;

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "render/apps/view/messages/client_message.h"
+#include "render/apps/view/session/audience.h"
 #include "render/apps/view/session/mailbox.h"
-#include "render/apps/view/session/outbox.h"
 #include "render/apps/view/session/picture_store.h"
 #include "render/apps/view/session/state_text.h"
 #include "render/apps/view/session/view_loop.h"
@@ -32,12 +32,12 @@ std::optional<std::uint32_t> id_of(const ClientMessage& message) {
 }  // namespace
 
 struct ViewSession::Parts {
-  Outbox outbox;
+  Audience audience;
   PictureStore pictures;
   std::unique_ptr<Mailbox> mailbox;
   std::unique_ptr<ViewLoop> loop;
 
-  explicit Parts(std::function<void()> notify) : outbox(std::move(notify)) {}
+  explicit Parts(std::function<void()> notify) : audience(std::move(notify)) {}
 };
 
 Result<std::unique_ptr<ViewSession>> ViewSession::open(SceneSource& source, LoadedScene loaded,
@@ -50,7 +50,7 @@ Result<std::unique_ptr<ViewSession>> ViewSession::open(SceneSource& source, Load
   Mailbox::Limits limits{settings.view.panes.front(), facts.kind == "particles", facts.frames};
   parts->mailbox = std::make_unique<Mailbox>(wish, limits);
   parts->loop = std::make_unique<ViewLoop>(
-      LoopParts{source, *parts->mailbox, parts->outbox, parts->pictures, settings.token},
+      LoopParts{source, *parts->mailbox, parts->audience, parts->pictures, settings.token},
       settings.work);
   if (auto done = parts->loop->open(std::move(loaded), wish); !done) return done.error();
   parts->mailbox->correct(wish);
@@ -65,29 +65,36 @@ ViewSession::ViewSession(std::unique_ptr<Parts> parts) : parts_(std::move(parts)
 
 ViewSession::~ViewSession() { parts_->mailbox->stop(); }
 
-void ViewSession::connect() {
-  parts_->outbox.reset(true);
+int ViewSession::connect() {
+  const int client = parts_->audience.join();
   parts_->mailbox->connect();
+  return client;
 }
 
-void ViewSession::disconnect() {
-  parts_->outbox.reset(false);
+void ViewSession::disconnect(int client) {
+  parts_->audience.leave(client);
   parts_->mailbox->wake();
 }
 
-void ViewSession::receive(std::string_view text) {
+void ViewSession::receive(int client, std::string_view text) {
   auto read = read_message(text);
   if (const auto* refused = std::get_if<RefusedMessage>(&read)) {
-    parts_->outbox.add_text(error_text(refused->type, refused->error, refused->id));
-    return;
+    return parts_->audience.answer(client, error_text(refused->type, refused->error, refused->id));
   }
-  const auto& message = std::get<ClientMessage>(read);
-  if (const auto* ack = std::get_if<AckMessage>(&message)) parts_->outbox.acknowledge(ack->frame);
+  auto& message = std::get<ClientMessage>(read);
+  std::visit(
+      [client](auto& any) {
+        if constexpr (requires { any.client; }) any.client = client;
+      },
+      message);
+  if (const auto* ack = std::get_if<AckMessage>(&message)) {
+    if (const auto outbox = parts_->audience.outbox(client)) outbox->acknowledge(ack->frame);
+  }
   if (const auto done = parts_->mailbox->take(message); !done)
-    parts_->outbox.add_text(error_text(type_of(message), done.error(), id_of(message)));
+    parts_->audience.answer(client, error_text(type_of(message), done.error(), id_of(message)));
 }
 
-Outbox& ViewSession::outbox() { return parts_->outbox; }
+const Audience& ViewSession::audience() { return parts_->audience; }
 const PictureStore& ViewSession::pictures() { return parts_->pictures; }
 
 }  // namespace boule::view

@@ -16,7 +16,7 @@ class Threads;
 
 namespace boule::view {
 
-class Outbox;
+class Audience;
 class PictureStore;
 
 /// How a session begins.
@@ -26,9 +26,9 @@ struct SessionSettings {
   std::string token;  ///< for the addresses of saved pictures
 };
 
-/// What one client at a time sees and changes: it takes messages as texts and has an outbox. It
-/// renders on a thread of its own, and only while a client is there. What a client chose stays for
-/// the next one.
+/// What its clients see and change, all of them the same picture by the same camera: it takes
+/// messages as texts, and each client has an outbox. It renders on a thread of its own, and only
+/// while a client is there. What the clients chose stays for the next one.
 class ViewSession {
  public:
   /// `loaded` is what `source` has loaded, with the look and the frame of its facts; the source
@@ -41,14 +41,14 @@ class ViewSession {
   ViewSession(const ViewSession&) = delete;
   ViewSession& operator=(const ViewSession&) = delete;
 
-  /// A client has come, in place of the one before, or has gone.
-  void connect();
-  void disconnect();
+  /// A client has come: its number. Or it has gone.
+  int connect();
+  void disconnect(int client);
 
-  /// A message of the client: any bytes.
-  void receive(std::string_view message);
+  /// A message of a client: any bytes.
+  void receive(int client, std::string_view message);
 
-  Outbox& outbox();
+  const Audience& audience();
   const PictureStore& pictures();
 
  private:

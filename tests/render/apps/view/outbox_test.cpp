@@ -1,7 +1,9 @@
-// What waits for a client: it is bounded, and the newest wins.
+// What waits for clients: it is bounded, and the newest wins.
 #include "render/apps/view/session/outbox.h"
 
 #include <gtest/gtest.h>
+
+#include "render/apps/view/session/audience.h"
 
 namespace boule::view {
 namespace {
@@ -46,7 +48,6 @@ TEST(FrameHeader, IsReadBack) {
 TEST(Outbox, OneFrameInFlightThenTheNewest) {
   int notified = 0;
   Outbox outbox([&] { ++notified; });
-  outbox.reset(true);
   for (int i = 0; i < 100; ++i) outbox.add_frame(header(0), "frame " + std::to_string(i));
   EXPECT_EQ(notified, 100);
   const Frame first = frame_of(outbox.take());
@@ -61,7 +62,6 @@ TEST(Outbox, OneFrameInFlightThenTheNewest) {
 
 TEST(Outbox, PanesTakeTurns) {
   Outbox outbox([] {});
-  outbox.reset(true);
   std::string turns;
   for (int i = 0; i < 6; ++i) {
     for (int pane = 0; pane < 3; ++pane) outbox.add_frame(header(pane), std::to_string(pane));
@@ -74,7 +74,6 @@ TEST(Outbox, PanesTakeTurns) {
 
 TEST(Outbox, TextsComeFirstAndAllOfThem) {
   Outbox outbox([] {});
-  outbox.reset(true);
   outbox.add_frame(header(0), "frame");
   outbox.report("statistics", "old");
   outbox.report("statistics", "new");
@@ -89,7 +88,6 @@ TEST(Outbox, TextsComeFirstAndAllOfThem) {
 
 TEST(Outbox, SilentClientIsGivenUp) {
   Outbox outbox([] {});
-  outbox.reset(true);
   const std::string text(1 << 16, 'x');
   for (int i = 0; i < 1000; ++i) outbox.add_text(text);
   EXPECT_TRUE(outbox.overflowed());
@@ -98,16 +96,40 @@ TEST(Outbox, SilentClientIsGivenUp) {
   EXPECT_LE(waiting, std::size_t{5} << 20);
 }
 
-TEST(Outbox, KeepsNothingForNobody) {
-  Outbox outbox([] {});
-  outbox.add_text("a");
-  outbox.add_frame(header(0), "frame");
-  outbox.report("statistics", "s");
-  EXPECT_FALSE(outbox.take());
-  outbox.reset(true);
-  outbox.add_text("a");
-  outbox.reset(true);  // another client
-  EXPECT_FALSE(outbox.take());
+TEST(Audience, ClientsHaveAllAtTheirPace) {
+  int notified = 0;
+  Audience audience([&] { ++notified; });
+  audience.add_text("for nobody");
+  const int slow = audience.join(), quick = audience.join();
+  ASSERT_NE(slow, quick);
+  EXPECT_EQ(audience.size(), 2U);
+  const auto outbox = audience.outbox(quick);
+  for (int i = 0; i < 3; ++i) {
+    audience.add_frame(header(0), std::to_string(i));
+    EXPECT_TRUE(audience.holds_frame(0));
+    const Frame frame = frame_of(outbox->take());
+    EXPECT_EQ(frame.picture, std::to_string(i));
+    EXPECT_FALSE(audience.holds_frame(0));
+    outbox->acknowledge(frame.header.frame);
+  }
+  EXPECT_EQ(frame_of(audience.outbox(slow)->take()).picture, "2");
+  EXPECT_GT(notified, 0);
+}
+
+TEST(Audience, AnswersGoToWhoAsked) {
+  Audience audience([] {});
+  const int one = audience.join(), other = audience.join();
+  audience.answer(one, "answer");
+  audience.report_to(one, "saving", "half");
+  audience.report_to_others(one, "camera", "moved");
+  EXPECT_EQ(audience.outbox(one)->take()->bytes, "answer");
+  EXPECT_EQ(audience.outbox(one)->take()->bytes, "half");
+  EXPECT_FALSE(audience.outbox(one)->take());
+  EXPECT_EQ(audience.outbox(other)->take()->bytes, "moved");
+  audience.leave(one);
+  audience.answer(one, "too late");
+  EXPECT_EQ(audience.outbox(one), nullptr);
+  EXPECT_FALSE(audience.outbox(other)->take());
 }
 
 }  // namespace

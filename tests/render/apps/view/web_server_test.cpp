@@ -237,34 +237,6 @@ TEST(WebServer, ClosesOnWhatNoPageSends) {
   EXPECT_EQ(asked_status(place), 101);
 }
 
-TEST(WebServer, TheLastClientHasTheSession) {
-  RunningServer server(scene_of(32, 24, 1));
-  std::vector<std::unique_ptr<ViewClient>> clients;
-  for (int i = 0; i < 10; ++i) {
-    clients.push_back(std::make_unique<ViewClient>(server.place()));
-    ASSERT_FALSE(clients.back()->wait_for("state").is_null());
-  }
-  for (int i = 0; i < 9; ++i) {
-    while (clients[static_cast<std::size_t>(i)]->next()) {
-    }
-    EXPECT_EQ(clients[static_cast<std::size_t>(i)]->close_code(), 4001) << i;
-  }
-  clients.back()->send({{"type", "texts"}, {"id", 5}});
-  EXPECT_EQ(clients.back()->wait_for("texts")["id"], 5);
-}
-
-TEST(WebServer, ChoicesStayForTheNextClient) {
-  RunningServer server(scene_of(32, 24, 1));
-  {
-    ViewClient client(server.place());
-    client.send({{"type", "camera"}, {"number", 1}, {"camera", {{"fov", 33}}}});
-    ASSERT_TRUE(client.wait_for_frame(0, 1, false));
-    client.drop();
-  }
-  ViewClient client(server.place());
-  EXPECT_EQ(client.wait_for("state")["camera"]["fov"], 33.0);
-}
-
 /// The keys of a struct of the scene, those of structs within it among them.
 template <HasFields Struct>
 std::vector<std::string> keys_of(const Struct& value) {
@@ -326,23 +298,6 @@ TEST(WebServer, TellsTheRulesOfCameraKeys) {
   EXPECT_EQ(lens["fov_axis"], Json::parse(R"({"kind": "name", "names": ["x", "y", "max"]})"));
   EXPECT_EQ(lens["eye"]["kind"], "point");
   EXPECT_EQ(lens["up"]["kind"], "direction");
-}
-
-TEST(WebServer, AClientThatReadsNothingStopsNobody) {
-  RunningServer server(scene_of(64, 48, 4));
-  const ServerPlace place = server.place();
-  std::vector<std::unique_ptr<ViewClient>> sleepers;
-  for (int i = 0; i < 10; ++i) {
-    sleepers.push_back(std::make_unique<ViewClient>(place));
-    for (int k = 0; k < 50; ++k) {
-      sleepers.back()->send({{"type", "pick"}, {"id", k}, {"x", 5}, {"y", 5}});
-      sleepers.back()->send(
-          {{"type", "camera"}, {"number", k}, {"moving", true}, {"camera", {{"fov", 30 + k}}}});
-    }
-  }
-  ViewClient client(place);
-  client.send({{"type", "camera"}, {"number", 1000}, {"camera", {{"fov", 50}}}});
-  EXPECT_TRUE(client.wait_for_frame(0, 1000, true));
 }
 
 TEST(WebServer, MemoryIsBoundedWhileACameraMoves) {
