@@ -45,6 +45,7 @@ bool BlockWorker::render_wanted(const PixelRect& block, int until, Film& film,
     const int x = block.x0 + offset.x, y = block.y0 + offset.y;
     if (x >= block.x1 || y >= block.y1 || !wanted(x, y)) continue;
     for (int sample = film.samples(x, y); sample < until; ++sample) {
+      if (add_bare(film, {x, y, sample})) continue;
       ids[count++] = {x, y, sample};
       if (count < room) continue;
       if (!trace(film, count)) return false;
@@ -101,6 +102,7 @@ bool BlockWorker::measure_part(const PixelRect& rect, Part& part, MeasuredPictur
     std::size_t count = 0;
     for (const auto& wanted : part.wanted()) {
       for (int sample = part.first(); sample < part.end(); ++sample) {
+        if (add_bare(part, {wanted.x, wanted.y, sample})) continue;
         ids_[count++] = {wanted.x, wanted.y, sample};
         if (count < ids_.size()) continue;
         if (!trace(part, count)) return false;
@@ -111,6 +113,14 @@ bool BlockWorker::measure_part(const PixelRect& rect, Part& part, MeasuredPictur
     more = part.look(picture);
     if (setup_.live != nullptr) setup_.live->add_measured(part.settled());
   }
+  return true;
+}
+
+/// Adds a sample of a bare pixel, which needs no ray. False: the pixel is another.
+template <class Target>
+bool BlockWorker::add_bare(Target& target, const SampleId& id) {
+  if (!setup_.bare_pixels.is_bare(id.x, id.y)) return false;
+  add(target, id, setup_.bare_color, 0);
   return true;
 }
 

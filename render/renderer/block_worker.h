@@ -13,6 +13,7 @@
 #include "render/frame/sampler.h"
 #include "render/integrators/integrator.h"
 #include "render/prepare/prepared_scene.h"
+#include "render/renderer/bare_pixels.h"
 #include "render/renderer/edge_block.h"
 #include "render/renderer/noise_block.h"
 #include "render/renderer/sample_rays.h"
@@ -33,6 +34,8 @@ struct BlockSetup {
   NoiseTarget noise{};
   EdgeTarget edges{};
   SmallSpheres small_spheres{};  ///< with edges
+  BarePixels bare_pixels{};      ///< they need no ray
+  Color bare_color{};            ///< what is seen there
   LiveProgress* live = nullptr;  ///< counts pixels whose noise was measured; null: off
 };
 
@@ -75,6 +78,8 @@ class BlockWorker {
   bool measure_parts(const PixelRect& block, Part& part, MeasuredPicture& picture);
   template <class Part>
   bool measure_part(const PixelRect& rect, Part& part, MeasuredPicture& picture);
+  template <class Target>
+  bool add_bare(Target& target, const SampleId& id);
   template <class Target>
   bool trace(Target& target, std::size_t count);
   [[nodiscard]] CameraRays camera_rays(const SampleId* samples);

@@ -91,8 +91,21 @@ void OutlineWorker::find_hits() {
   seen_.assign(static_cast<std::size_t>(points_.area()), Hit{});
   if (setup_.scene.clips > 0) surfaces_.assign(seen_.size(), no_primitive);
   for (int y = points_.y0; y < points_.y1; y += chunk) {
-    for (int x = points_.x0; x < points_.x1; x += chunk) trace(x, y);
+    for (int x = points_.x0; x < points_.x1; x += chunk) {
+      if (!is_bare(x, y)) trace(x, y);
+    }
   }
+}
+
+/// Whether all rays of the chunk whose first point is (x0, y0) are certain to miss.
+bool OutlineWorker::is_bare(int x0, int y0) const {
+  const int x1 = std::min(x0 + chunk, points_.x1), y1 = std::min(y0 + chunk, points_.y1);
+  for (int y = y0 / outline_grid; y * outline_grid < y1; ++y) {
+    for (int x = x0 / outline_grid; x * outline_grid < x1; ++x) {
+      if (!setup_.bare_pixels.is_bare(x, y)) return false;
+    }
+  }
+  return true;
 }
 
 /// Traces the rays of the chunk whose first point is (x0, y0).

@@ -88,6 +88,7 @@ class OutlineWorker {
  private:
   void find_hits();
   void trace(int x0, int y0);
+  [[nodiscard]] bool is_bare(int x0, int y0) const;
   void mark_changes();
   void mark_beside(int x, int y, const std::vector<int>& half_widths);
   void mark_below(int x, int y, const std::vector<int>& half_widths);

@@ -27,19 +27,37 @@ std::size_t largest_stream(const RenderOptions& options, std::size_t spheres) {
   return std::min(fitting, tile * tile * static_cast<std::size_t>(options.spp));
 }
 
+/// What the camera's rays see where they miss everything, if that is one colour.
+std::optional<Color> color_of_misses(const PreparedScene& scene) {
+  if (scene.backdrop) return scene.backdrop;
+  const auto* constant = std::get_if<ConstantBackground>(&scene.background);
+  return constant != nullptr ? std::optional(constant->color) : std::nullopt;
+}
+
+/// Whether the rays that bare pixels save cost more than finding these pixels.
+bool bare_pixels_pay(const RenderOptions& options, const PreparedScene& scene) {
+  constexpr double most_primitives_a_sample = 1 / 16.0;
+  const double samples = options.aa > 0 ? 1 : options.noise > 0 ? options.min_spp : options.spp;
+  const bool has_planes = scene.planes.size() > scene.clips;
+  return !has_planes && color_of_misses(scene) &&
+         scene.geometry.sphere_count() + scene.of_capsules.size() <
+             most_primitives_a_sample * samples * rendered_rect(options).area();
+}
+
 }  // namespace
 
 Diagnostic Renderer::moved_away() { return Diagnostic::of("the renderer was moved away"); }
 
 Renderer::Renderer(const RenderOptions& options, std::shared_ptr<const PreparedScene> scene,
-                   const KernelTable& kernels, SmallSpheres small_spheres)
+                   const KernelTable& kernels, SmallSpheres small_spheres, BarePixels bare_pixels)
     : options_(options),
       scene_(std::move(scene)),
       setup_(std::make_unique<const BlockSetup>(BlockSetup{
           *scene_, kernels, Sampler(options.spp, options.seed, options.filter),
           block_pixels(options.tile), largest_stream(options, scene_->geometry.sphere_count()),
           alpha_of(options), PixelRect{0, 0, options.width, options.height}, noise_target(options),
-          edge_target(options), std::move(small_spheres), options.live})),
+          edge_target(options), std::move(small_spheres), std::move(bare_pixels),
+          color_of_misses(*scene_).value_or(Color{}), options.live})),
       blocks_(rendered_rect(options), options.tile, options.order),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
@@ -96,7 +114,13 @@ Result<Renderer> Renderer::create(std::shared_ptr<const PreparedScene> scene,
       small_spheres = SmallSpheres(scene->geometry, scene->camera_view, options.width,
                                    rendered_rect(options), scheduler.parallel_for());
     }
-    return Renderer(fitted, std::move(scene), *kernels.value(), std::move(small_spheres));
+    BarePixels bare_pixels;
+    if (bare_pixels_pay(options, *scene)) {
+      bare_pixels = BarePixels(scene->geometry, scene->camera_view, rendered_rect(options),
+                               scheduler.parallel_for());
+    }
+    return Renderer(fitted, std::move(scene), *kernels.value(), std::move(small_spheres),
+                    std::move(bare_pixels));
   });
 }
 

@@ -122,7 +122,7 @@ class Renderer {
   template <class AnyScene>
   static Result<Renderer> create_from(AnyScene&& scene, const RenderOptions& options);
   Renderer(const RenderOptions& options, std::shared_ptr<const PreparedScene> scene,
-           const KernelTable& kernels, SmallSpheres small_spheres);
+           const KernelTable& kernels, SmallSpheres small_spheres, BarePixels bare_pixels);
   static Diagnostic moved_away();
   std::unique_ptr<BlockWorker> make_worker() const;
   [[nodiscard]] IntegratorSettings integrator_settings() const;

@@ -4,11 +4,9 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/base/chunks.h"
 #include "core/optics/camera_view.h"
 #include "render/prepare/projection.h"
-#include "simd/geometry/bvh_builder.h"
-#include "simd/geometry/part_placement.h"
+#include "render/renderer/visit_primitives.h"
 
 namespace boule {
 namespace {
@@ -19,35 +17,6 @@ constexpr double largest_radius = 0.75;  // pixels
 int pixel_at(double raster, int low, int high) {
   if (!(raster > low)) return low;
   return raster < high ? static_cast<int>(raster) : high;
-}
-
-/// Calls visit(sphere) for each sphere, in parallel.
-template <class Visit>
-void visit_spheres(const GeometryView& view, const ParallelFor& parallel_for, const Visit& visit) {
-  const auto visit_part = [&](const PartView& part, std::size_t slots) {
-    in_chunks(parallel_for, slots, [&](std::size_t, std::size_t begin, std::size_t end) {
-      for (std::size_t slot = begin; slot < end; ++slot) {
-        if (part.id[slot] >= 0) visit(sphere_of(part, slot));
-      }
-    });
-  };
-  PartView whole{};
-  whole.blocks = view.spheres.blocks;
-  whole.id = view.spheres.id;
-  visit_part(whole, view.spheres.block_count * bvh_leaf_size);
-  for (std::size_t i = 0; i < view.parts.size; ++i)
-    visit_part(view.parts.parts[i], view.parts.parts[i].slots);
-}
-
-/// Calls visit(capsule) for each capsule, in parallel.
-template <class Visit>
-void visit_capsules(const Geometry& geometry, const ParallelFor& parallel_for, const Visit& visit) {
-  const CapsuleView view = geometry.view().capsules;
-  in_chunks(parallel_for, view.slots, [&](std::size_t, std::size_t begin, std::size_t end) {
-    for (std::size_t slot = begin; slot < end; ++slot) {
-      if (view.id[slot] != empty_slot) visit(geometry.capsule(static_cast<std::uint32_t>(slot)));
-    }
-  });
 }
 
 }  // namespace
@@ -131,8 +100,7 @@ SmallSpheres::SmallSpheres(const Geometry& geometry, const CameraView& camera, i
     : rect_(rect), marks_(static_cast<std::size_t>(rect.area())) {
   Marker marker(*this, camera, width);
   const auto add = [&marker](const auto& primitive) { marker.add(primitive); };
-  visit_spheres(geometry.view(), parallel_for, add);
-  visit_capsules(geometry, parallel_for, add);
+  visit_primitives(geometry, parallel_for, add);
   if (camera.distortion.st != nullptr) everywhere_ = marker.any();
   if (!marker.any() || everywhere_) marks_ = {};
 }
