@@ -2,6 +2,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <utility>
 
@@ -51,19 +52,22 @@ void open_browser(const std::string& url) {
   if (status != 0) print_note("boule: note: the browser could not be opened");
 }
 
-/// Who has logged in by ssh cannot open this machine's own address: a note how a tunnel does it.
-void tell_tunnel(const std::string& url) {
+/// Who has logged in by ssh cannot open this machine's own address, and nobody a socket in the file
+/// system: a note how a tunnel does it.
+void tell_tunnel(const std::string& url, const std::string& socket) {
   const char* const connection = std::getenv("SSH_CONNECTION");  // client, port, server, port
-  const std::string host = "127.0.0.1:";
+  const std::string host = socket.empty() ? "127.0.0.1:" : "localhost:";
   const std::size_t at = url.find(host);
-  if (connection == nullptr || at == std::string::npos) return;
-  std::istringstream words(connection);
+  if (at == std::string::npos || (connection == nullptr && socket.empty())) return;
+  std::istringstream words(connection == nullptr ? "- - HOST 22" : connection);
   std::string client, client_port, server, server_port;
   if (!(words >> client >> client_port >> server >> server_port)) return;
   const std::size_t digits = at + host.size();
   const std::string port = url.substr(digits, url.find('/', digits) - digits);
+  const std::string far =
+      socket.empty() ? host + port : std::filesystem::absolute(socket).lexically_normal().string();
   print_note("boule: note: to open it on the machine that you came from, run there: ssh -N -L " +
-             port + ":" + host + port + (server_port == "22" ? "" : " -p " + server_port) + " " +
+             port + ":" + printable(far) + (server_port == "22" ? "" : " -p " + server_port) + " " +
              printable(server));
 }
 
@@ -73,6 +77,7 @@ ExitCode serve(const ViewCommand& command, view::WebServer& server, view::ViewSe
   view::ServerSettings settings;
   settings.address = command.address;
   settings.port = static_cast<unsigned short>(command.port);
+  settings.socket = command.socket;
   settings.token = token;
   settings.embed = command.embed;
   settings.idle_seconds = command.idle;
@@ -80,7 +85,7 @@ ExitCode serve(const ViewCommand& command, view::WebServer& server, view::ViewSe
   settings.ready = [&](const std::string& url) {
     written = print_data(url + "\n");
     if (reader_left()) leave_unread();
-    tell_tunnel(url);
+    tell_tunnel(url, command.socket);
     if (written && command.open) open_browser(url);
   };
   const StopGuard guard(OnSignal::stop);

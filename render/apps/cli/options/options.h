@@ -104,6 +104,7 @@ struct ViewCommand {
   RenderCommand render;
   std::string address = "127.0.0.1";
   int port = 0;        ///< 0: one that is free
+  std::string socket;  ///< its path, in place of an address; empty: none
   bool embed = false;  ///< in pages of others
   bool open = false;
   std::optional<double> idle;  ///< seconds

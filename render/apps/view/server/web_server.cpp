@@ -1,7 +1,9 @@
 #include "render/apps/view/server/web_server.h"
 
 #include <atomic>
+#include <boost/asio/basic_socket_acceptor.hpp>
 #include <boost/asio/dispatch.hpp>
+#include <boost/asio/generic/stream_protocol.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
@@ -16,7 +18,7 @@
 
 #include "render/apps/view/messages/client_message.h"
 #include "render/apps/view/server/access.h"
-#include "render/apps/view/server/outer_address.h"
+#include "render/apps/view/server/listener.h"
 #include "render/apps/view/server/page_files.h"
 #include "render/apps/view/session/audience.h"
 #include "render/apps/view/session/picture_store.h"
@@ -29,7 +31,8 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = boost::beast::http;
 namespace websocket = boost::beast::websocket;
-using boost::asio::ip::tcp;
+using Protocol = asio::generic::stream_protocol;  // of TCP, or of a socket in the file system
+using Stream = beast::basic_stream<Protocol>;
 using Error = beast::error_code;
 using Request = http::request<http::empty_body>;
 using Response = http::response<http::string_body>;
@@ -70,7 +73,7 @@ std::string_view view_of(beast::string_view text) { return {text.data(), text.si
 /// a time.
 class SocketClient : public std::enable_shared_from_this<SocketClient> {
  public:
-  SocketClient(Hub& hub, beast::tcp_stream stream)
+  SocketClient(Hub& hub, Stream stream)
       : hub_(hub), counted_(hub), socket_(std::move(stream)), deadline_(hub.io) {}
 
   ~SocketClient() {
@@ -164,7 +167,7 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
 
   Hub& hub_;
   const Counted counted_;
-  websocket::stream<beast::tcp_stream, false> socket_;  // false: nothing is compressed
+  websocket::stream<Stream, false> socket_;  // false: nothing is compressed
   asio::steady_timer deadline_;
   beast::flat_buffer buffer_;
   std::string outgoing_;
@@ -178,7 +181,7 @@ class SocketClient : public std::enable_shared_from_this<SocketClient> {
 /// One request, and its answer; or a socket, if it asks for one.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
-  HttpConnection(Hub& hub, tcp::socket socket)
+  HttpConnection(Hub& hub, Protocol::socket socket)
       : hub_(hub), counted_(hub), stream_(std::move(socket)), buffer_(2 * longest_header) {}
 
   void read() {
@@ -268,13 +271,13 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     response_ = std::move(response);
     http::async_write(stream_, response_, [self = shared_from_this()](const Error&, std::size_t) {
       Error ignored;
-      self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
+      self->stream_.socket().shutdown(asio::socket_base::shutdown_send, ignored);
     });
   }
 
   Hub& hub_;
   const Counted counted_;
-  beast::tcp_stream stream_;
+  Stream stream_;
   beast::flat_buffer buffer_;
   http::request_parser<http::empty_body> parser_;
   Response response_;
@@ -287,8 +290,10 @@ class WebServer::Implementation {
   Status serve(const ServerSettings& settings, ViewSession& session) {
     hub_.settings = &settings;
     hub_.session = &session;
-    if (auto done = listen(settings); !done) return done;
-    settings.ready(url());
+    auto listener = Listener::open(settings);
+    if (!listener) return listener.error();
+    acceptor_.assign({listener.value().family(), 0}, listener.value().release());
+    settings.ready(listener.value().url() + "/?token=" + settings.token);
     hub_.last_seen = std::chrono::steady_clock::now();
     accept();
     watch();
@@ -307,38 +312,12 @@ class WebServer::Implementation {
   }
 
  private:
-  Status listen(const ServerSettings& settings) {
-    Error error;
-    const auto address = asio::ip::make_address(settings.address, error);
-    if (error) return Diagnostic::about("--listen", "expected an address in numbers");
-    const tcp::endpoint endpoint(address, settings.port);
-    acceptor_.open(endpoint.protocol(), error);
-    if (!error) acceptor_.set_option(asio::socket_base::reuse_address(true), error);
-    if (!error) acceptor_.bind(endpoint, error);
-    if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
-    if (error) {
-      return Diagnostic::of("cannot listen on " + settings.address + ", port " +
-                            std::to_string(settings.port) + ": " + error.message());
-    }
-    return {};
-  }
-
-  std::string url() const {
-    const tcp::endpoint own = acceptor_.local_endpoint();
-    const asio::ip::address address = own.address();
-    // Nobody can open an address that means all of this machine's.
-    std::string host =
-        address.is_unspecified() ? outer_address(address.is_v6()) : address.to_string();
-    if (address.is_v6()) host = "[" + host + "]";
-    return "http://" + host + ":" + std::to_string(own.port()) + "/?token=" + hub_.settings->token;
-  }
-
   void accept() {
-    acceptor_.async_accept([this](const Error& error, tcp::socket socket) {
+    acceptor_.async_accept([this](const Error& error, Protocol::socket socket) {
       if (error == asio::error::operation_aborted) return;
       if (!error && hub_.connections < most_connections) {
         Error ignored;
-        socket.set_option(tcp::no_delay(true), ignored);
+        socket.set_option(asio::ip::tcp::no_delay(true), ignored);
         std::make_shared<HttpConnection>(hub_, std::move(socket))->read();
       }
       accept();
@@ -379,7 +358,7 @@ class WebServer::Implementation {
 
   Hub hub_;
   std::atomic<bool> posted_{false};
-  tcp::acceptor acceptor_{hub_.io};
+  asio::basic_socket_acceptor<Protocol> acceptor_{hub_.io};
   asio::steady_timer timer_{hub_.io};
 };
 

@@ -11,10 +11,15 @@ namespace boule::view {
 
 class ViewSession;
 
+inline constexpr unsigned short default_tunnel_port = 8000;
+
 /// How the page is served.
 struct ServerSettings {
   std::string address = "127.0.0.1";  ///< a number
   unsigned short port = 0;            ///< 0: one that is free
+  /// In place of both, the path of a socket in the file system; `port` is then the one that a
+  /// tunnel has at its near end, 0: default_tunnel_port.
+  std::string socket;
   std::string token;
   bool embed = false;                      ///< pages of others may show the page in a frame
   std::optional<double> idle_seconds;      ///< ends when no client was there for so long

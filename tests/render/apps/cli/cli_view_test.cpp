@@ -2,8 +2,11 @@
 #include <arpa/inet.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/un.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <cstdlib>
 
@@ -75,6 +78,70 @@ TEST_F(View, TellsAnAddressThatCanBeOpened) {
   const int own = socket(AF_INET, SOCK_STREAM, 0);
   EXPECT_EQ(bind(own, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0) << host;
   close(own);
+}
+
+/// What a server at a socket in the file system answers, up to this text or the end.
+std::string answer_at(const std::string& file, const std::string& request,
+                      const std::string& last) {
+  sockaddr_un place{};
+  place.sun_family = AF_UNIX;
+  file.copy(place.sun_path, sizeof place.sun_path - 1);
+  const int end = socket(AF_UNIX, SOCK_STREAM, 0);
+  EXPECT_EQ(connect(end, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
+  EXPECT_EQ(write(end, request.data(), request.size()), static_cast<ssize_t>(request.size()));
+  std::string answer;
+  std::array<char, 4096> part{};
+  while (answer.find(last) == std::string::npos) {
+    const ssize_t size = read(end, part.data(), part.size());
+    if (size <= 0) break;
+    answer.append(part.data(), static_cast<std::size_t>(size));
+  }
+  close(end);
+  return answer;
+}
+
+TEST_F(View, ListensAtASocketFile) {
+  const std::string file = path("view.sock");
+  RunningProgram program({"view", small_scene(), "--socket", file, "--port", "8123"});
+  std::string token;
+  ASSERT_TRUE(program.wait_for("http://localhost:8123/?token="));
+  ASSERT_TRUE(program.wait_until([&](const std::string& shown, std::size_t from) {
+    token = shown.substr(from, 32);
+    return token.size() == 32 ? from + 32 : std::string::npos;
+  }));
+  ASSERT_TRUE(program.wait_for("ssh -N -L 8123:" + file));
+  struct stat found {};
+  ASSERT_EQ(stat(file.c_str(), &found), 0);
+  EXPECT_EQ(found.st_mode & 0777U, 0600U);
+  const std::string head = " HTTP/1.1\r\nHost: localhost:8123\r\n";
+  EXPECT_THAT(answer_at(file, "GET /?token=" + token + head + "\r\n", "</html>"),
+              HasSubstr("</html>"));
+  EXPECT_THAT(answer_at(file, "GET /" + head + "\r\n", "\r\n\r\n"), HasSubstr(" 403 "));
+  const std::string upgrade =
+      "Connection: Upgrade\r\nUpgrade: websocket\r\nSec-WebSocket-Version: 13\r\n"
+      "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n";
+  EXPECT_THAT(answer_at(file, "GET /socket?token=" + token + head + upgrade, "\"state\""),
+              testing::AllOf(HasSubstr(" 101 "), HasSubstr("\"state\"")));
+  refused_run({"view", small_scene(), "--socket", file}, 1);  // it is in use
+  program.send(SIGTERM);
+  program.finish();
+  EXPECT_NE(stat(file.c_str(), &found), 0);
+}
+
+TEST_F(View, TakesTheSocketOfAKilledProgram) {
+  const std::string file = path("view.sock");
+  {
+    RunningProgram program({"view", small_scene(), "--socket", file});
+    ASSERT_TRUE(program.wait_for("?token="));
+    program.send(SIGKILL);
+    program.finish();
+  }
+  const ProgramRun run = boule_run({"view", small_scene(), "--socket", file, "--idle", "50ms"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  refused_run({"view", small_scene(), "--socket", write("a_file", "kept")}, 1);
+  EXPECT_EQ(read("a_file"), "kept");
+  refused_run({"view", small_scene(), "--socket", std::string(200, 'x')}, 2);
+  refused_run({"view", small_scene(), "--socket", file, "--open"}, 2);
 }
 
 class RenderedCamera : public ProgramTest {
