@@ -44,8 +44,8 @@ bool BlockWorker::render_wanted(const PixelRect& block, int until, Film& film,
   for (const PixelOffset& offset : setup_.block_pixels) {
     const int x = block.x0 + offset.x, y = block.y0 + offset.y;
     if (x >= block.x1 || y >= block.y1 || !wanted(x, y)) continue;
+    if (add_bare(film, x, y, film.samples(x, y), until)) continue;
     for (int sample = film.samples(x, y); sample < until; ++sample) {
-      if (add_bare(film, {x, y, sample})) continue;
       ids[count++] = {x, y, sample};
       if (count < room) continue;
       if (!trace(film, count)) return false;
@@ -101,8 +101,8 @@ bool BlockWorker::measure_part(const PixelRect& rect, Part& part, MeasuredPictur
   for (bool more = true; more;) {
     std::size_t count = 0;
     for (const auto& wanted : part.wanted()) {
+      if (add_bare(part, wanted.x, wanted.y, part.first(), part.end())) continue;
       for (int sample = part.first(); sample < part.end(); ++sample) {
-        if (add_bare(part, {wanted.x, wanted.y, sample})) continue;
         ids_[count++] = {wanted.x, wanted.y, sample};
         if (count < ids_.size()) continue;
         if (!trace(part, count)) return false;
@@ -116,11 +116,13 @@ bool BlockWorker::measure_part(const PixelRect& rect, Part& part, MeasuredPictur
   return true;
 }
 
-/// Adds a sample of a bare pixel, which needs no ray. False: the pixel is another.
+/// Adds the samples `first` to `end` - 1 of a bare pixel, which need no rays. False: it is another
+/// pixel.
 template <class Target>
-bool BlockWorker::add_bare(Target& target, const SampleId& id) {
-  if (!setup_.bare_pixels.is_bare(id.x, id.y)) return false;
-  add(target, id, setup_.bare_color, 0);
+bool BlockWorker::add_bare(Target& target, int x, int y, int first, int end) const {
+  if (!setup_.bare_pixels.is_bare(x, y)) return false;
+  for (int sample = first; sample < end; ++sample)
+    add(target, {x, y, sample}, setup_.bare_color, 0);
   return true;
 }
 

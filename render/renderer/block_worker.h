@@ -79,7 +79,7 @@ class BlockWorker {
   template <class Part>
   bool measure_part(const PixelRect& rect, Part& part, MeasuredPicture& picture);
   template <class Target>
-  bool add_bare(Target& target, const SampleId& id);
+  bool add_bare(Target& target, int x, int y, int first, int end) const;
   template <class Target>
   bool trace(Target& target, std::size_t count);
   [[nodiscard]] CameraRays camera_rays(const SampleId* samples);
