@@ -62,8 +62,8 @@ BOULE_INLINE T cosine_density(const T& cosine) {
 }
 
 /// The same with the density (n + 1) / (2 pi) cosine^n, a lobe of Phong's (Lafortune and Willems,
-/// "Using the modified Phong reflectance model for physically based rendering", 1994). Its power has
-/// the accuracy of a float: the direction becomes one.
+/// "Using the modified Phong reflectance model for physically based rendering", 1994). Its power
+/// has the accuracy of a float: the direction becomes one.
 template <class T = double>
 BOULE_INLINE AngleOf<T> warp_to_power(const T& u, const T& n) {
   const T cosine = elementary::pow_for_float(T(1.0) - u, T(1.0) / (n + T(1.0)));
