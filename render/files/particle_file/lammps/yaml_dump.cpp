@@ -1,8 +1,10 @@
 #include "render/files/particle_file/lammps/yaml_dump.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <utility>
@@ -94,9 +96,11 @@ class YamlHeadReader {
     return {};
   }
 
+  /// An error at a word of the line, or about the line.
   Diagnostic wrong(std::string_view word, const std::string& expected) const {
-    return error_at_word(number_, line_, word.empty() ? line_ : word,
-                         "expected " + expected + ", found " + quote(word), std::string(key_));
+    if (word.empty()) word = line_;
+    return error_at_word(number_, line_, word, "expected " + expected + ", found " + quote(word),
+                         std::string(key_));
   }
 
   Status take_count(std::string_view value) {

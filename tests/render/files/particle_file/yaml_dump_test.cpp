@@ -109,7 +109,9 @@ INSTANTIATE_TEST_SUITE_P(
             "Units", with(yaml, "nano", "parsec"),
             "4:8: expected lj, real, metal, si, cgs, electron, micro or nano, found 'parsec'"},
         BrokenFile{"Time", with(yaml, "0.25", "nan"), "5:7: expected a finite number, found 'nan'"},
-        BrokenFile{"Boundary", with(yaml, "[ p, p, f", "[ p, f"), "7:1: expected six boundaries"},
+        BrokenFile{"Boundary", with(yaml, "[ p, p, f", "[ p, f"),
+                   "7:1: expected six boundaries, as in [ p, p, f, f, p, p ], found 'boundary: [ "
+                   "p, f, f, p"},
         BrokenFile{"BoxOfWords", with(yaml, "-5, 5", "-5, five"),
                    "13:11: expected a finite number, found 'five' (box)"},
         BrokenFile{"BoxReversed", with(yaml, "-5, 5", "5, -5"),
