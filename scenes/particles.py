@@ -8,6 +8,10 @@ heap.xyz    grains of many sizes that were poured on a floor, with their speeds
 disc.csv    a galaxy: stars on circles, with their speeds
 wave.xyz    a chain of 40 atoms that swings: a trajectory of 10 frames
 bilayer.data  a membrane of 128 lipids, four kinds of beads and their bonds, in the format of LAMMPS
+dna.data    two strands of B-DNA, three beads for each nucleotide, and their bonds, likewise
+perovskite.xyz  a cell of strontium titanate
+shear.xyz   a crystal that is sheared along x, with the speeds of its atoms
+stars.csv   a globular cluster with temperatures, and three stars that are far away
 """
 import math
 import random
@@ -178,6 +182,72 @@ def bilayer():
         file.writelines(f"{i + 1} 1 {a + 1} {b + 1}\n" for i, (a, b) in enumerate(bonds))
 
 
+def dna():
+    """Phosphate, sugar and base of each nucleotide where the model 3SPN has them (Knotts et al., J. Chem. Phys. 126,
+    084901, 2007). Kinds: the backbones of both strands, then A, T, G, C."""
+    backbone = ((8.918, 94.038, 2.186), (6.981, 70.197, 1.280))
+    bases = {"A": (0.773, 41.905, 0.051), "T": (2.349, 86.119, 0.191), "G": (0.828, 40.691, 0.053),
+             "C": (2.296, 85.027, 0.187)}
+    first, beads, bonds = "CGCGAATTCGCGTTAGCATCCGAT", [], []
+    for strand, letters in ((1, first), (-1, first.translate(str.maketrans("ATGC", "TACG")))):
+        for i, letter in enumerate(letters):
+            at = len(beads)
+            own = 1 if strand == 1 else 2
+            for kind, (r, angle, z) in zip((own, own, 3 + list(bases).index(letter)), (*backbone, bases[letter])):
+                turn = math.radians(strand * angle + 36 * i)
+                beads.append((kind, r * math.cos(turn), r * math.sin(turn), strand * z + 3.38 * i))
+            bonds += [(at, at + 1), (at + 1, at + 2)]
+            if i > 0:  # sugar to the next phosphate from 5' to 3'
+                bonds.append((at - 2, at) if strand == 1 else (at - 3, at + 1))
+    n = len(first)
+    bonds += [(3 * i + 2, 3 * (n + i) + 2) for i in range(n)]
+    with open("dna.data", "w", encoding="ascii") as file:
+        file.write(f"B-DNA, in angstrom\n\n{len(beads)} atoms\n{len(bonds)} bonds\n6 atom types\n1 bond types\n\n"
+                   f"-12 12 xlo xhi\n-12 12 ylo yhi\n-4 {3.38 * n:.2f} zlo zhi\n\nAtoms # bond\n\n")
+        for i, (kind, x, y, z) in enumerate(beads):
+            file.write(f"{i + 1} {1 + i // (3 * n)} {kind} {x:.2f} {y:.2f} {z:.2f}\n")
+        file.write("\nBonds\n\n")
+        file.writelines(f"{i + 1} 1 {a + 1} {b + 1}\n" for i, (a, b) in enumerate(bonds))
+
+
+def perovskite():
+    a = 3.905
+    places = (("Sr", 0, 0, 0), ("Ti", 1, 1, 1), ("O", 1, 1, 0), ("O", 1, 0, 1), ("O", 0, 1, 1))
+    write("perovskite.xyz", f'Lattice="{a} 0 0 0 {a} 0 0 0 {a}" pbc="T T T" Properties=species:S:1:pos:R:3',
+          ["%s %.4f %.4f %.4f" % (kind, *(a / 2 * c for c in place)) for kind, *place in places])
+
+
+def shear():
+    """The middle gives way."""
+    rng, step, n = random.Random(8), 1.58, (10, 5, 8)
+    rows = []
+    for i in range(n[0]):
+        for j in range(n[1]):
+            for k in range(n[2]):
+                for basis in FACE_CENTRED:
+                    x, y, z = (step * (c + b) for c, b in zip((i, j, k), basis))
+                    height = 2 * z / (step * n[2]) - 1
+                    shake = 0.16 if abs(height) < 0.25 else 0.04
+                    x, y, z = (c + rng.gauss(0, shake) for c in (x + 2.5 * height, y, z))
+                    rows.append("%.2f %.2f %.2f %.2f" % (x, y, z, 0.8 * height + rng.gauss(0, 0.2)))
+    write("shear.xyz", "Properties=pos:R:3:vx:R:1", rows)
+
+
+def stars():
+    rng = random.Random(9)
+    with open("stars.csv", "w", encoding="ascii") as file:
+        file.write("x,y,z,radius,temperature\n")
+        for _ in range(1200):
+            away = min(1 / math.sqrt(rng.uniform(0.002, 1) ** (-2 / 3) - 0.999), 2.5 + 0.5 * rng.random())
+            z, turn = rng.uniform(-1, 1), rng.uniform(0, 2 * math.pi)
+            across = away * math.sqrt(1 - z * z)
+            hot = rng.random() ** 3
+            file.write("%.3f,%.3f,%.3f,%.3f,%.0f\n" % (across * math.cos(turn), across * math.sin(turn), away * z,
+                                                      0.025 + 0.05 * hot, 3000 + 9000 * hot))
+        for x, y, z in ((900, 40, 30), (-700, 300, -100), (20, -800, 400)):
+            file.write("%d,%d,%d,0.03,4000\n" % (x, y, z))
+
+
 if __name__ == "__main__":
-    for make in (gold, slab, salt, heap, disc, wave, bilayer):
+    for make in (gold, slab, salt, heap, disc, wave, bilayer, dna, perovskite, shear, stars):
         make()

@@ -19,4 +19,16 @@ Material recolored(const Material& material, const Color& color) {
   return other;
 }
 
+Color color_of(const Material& material) {
+  return std::visit(
+      [](const auto& kind) {
+        if constexpr (requires { kind.radiance; }) {
+          return kind.radiance;
+        } else {
+          return kind.color;
+        }
+      },
+      material);
+}
+
 }  // namespace boule

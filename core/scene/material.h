@@ -83,11 +83,27 @@ inline constexpr auto fields<Phong> = field_list(
     field("transmission", &Phong::transmission, rule::not_negative),
     field("ior", &Phong::ior, rule::positive));
 
-using Material = std::variant<Matte, Plastic, Metal, Glass, Emissive, Phong>;
+/// A thin film, which the camera's own rays see and pass, and no others: it neither throws shadows
+/// nor shows in mirrors. Of spheres and capsules; those that overlap have one film around them.
+struct Ghost {
+  Color color{0.8f, 0.8f, 0.8f};
+  float opacity = 0.2f;  ///< 0 .. 1, seen straight on; it grows to 1 at a rim
+};
+
+template <>
+inline constexpr auto fields<Ghost> = field_list("ghost",
+                                                 field("color", &Ghost::color, rule::not_negative),
+                                                 field("opacity", &Ghost::opacity,
+                                                       rule::from_to(0, 1)));
+
+using Material = std::variant<Matte, Plastic, Metal, Glass, Emissive, Phong, Ghost>;
 
 /// A material in another colour, which replaces its own. The radiance of an emissive one becomes
 /// that colour times its largest component.
 Material recolored(const Material& material, const Color& color);
+
+/// The colour that recolored() replaces.
+Color color_of(const Material& material);
 
 /// The first Problem of a material: a field against its rule.
 std::optional<Problem> find_problem(const Material& material);

@@ -27,7 +27,9 @@ StreamIntegrator::StreamIntegrator(const PreparedScene& scene, const KernelTable
                  rays == RaysPerDepth::many ? weight_of_depth(settings) : 0),
       surfaces_(scene, kernels),
       geometry_(scene.geometry.view()),
-      search_(scene, kernels) {}
+      search_(scene, kernels) {
+  if (scene.ghosts && settings.record == nullptr) ghosts_.emplace(scene, kernels);
+}
 
 void StreamIntegrator::use_light(const Light& light) {
   lights_.push_back({&light, shadow_target(light), light_intensity(light)});
@@ -49,6 +51,7 @@ bool StreamIntegrator::trace(const CameraRays& camera, Color* radiance) {
   }
   wavefront_.finish(radiance);
   if (settings_.fog.strength > 0) add_fog(radiance);
+  if (ghosts_) ghosts_->add(radiance);
   return true;
 }
 
@@ -78,6 +81,7 @@ void StreamIntegrator::trace_stream(const PathStream& stream, const CameraRays& 
         stream.rays->get(0), hit(0), {met_.t[0], met_.id[0], met_.slot[0]},
         {stream.throughput.r[0], stream.throughput.g[0], stream.throughput.b[0]});
   if (first_hits && settings_.fog.strength > 0) find_fog(stream);
+  if (first_hits && ghosts_) ghosts_->find(stream.rays->view(), query, hits_.view(), settings_.fog);
   if (first_hits && camera.covered != nullptr) tell_coverage(camera.covered);
   for (std::size_t first = 0; first < count; first += StreamSurfaces::block_size) {
     shade({stream, first, std::min(first + StreamSurfaces::block_size, count)});
@@ -114,10 +118,7 @@ void StreamIntegrator::find_fog(const PathStream& stream) {
     const Vec3d point = ray.org + vec_cast<double>(ray.dir) * met.t;
     Veil& veil = veils_[k];
     veil.share = settings_.fog.share(depth_of(scene_.camera_view, point));
-    if (veil.share > 0) {
-      veil.color =
-          scene_.backdrop ? *scene_.backdrop : background_radiance(scene_.background, ray.dir);
-    }
+    if (veil.share > 0) veil.color = seen_behind(scene_.background, scene_.backdrop, ray.dir);
   }
 }
 
@@ -131,7 +132,8 @@ void StreamIntegrator::add_fog(Color* radiance) const {
 void StreamIntegrator::tell_coverage(std::uint8_t* covered) const {
   const bool has_fog = settings_.fog.strength > 0;
   for (std::size_t k = 0; k < hits_.size(); ++k) {
-    const float seen = hit(k).id == no_primitive ? 0 : has_fog ? 1 - veils_[k].share : 1;
+    float seen = hit(k).id == no_primitive ? 0 : has_fog ? 1 - veils_[k].share : 1;
+    if (ghosts_) seen = 1 - (1 - ghosts_->share(k)) * (1 - seen);
     covered[k] = static_cast<std::uint8_t>(seen * float{whole_coverage} + 0.5F);
   }
 }

@@ -3,8 +3,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "render/integrators/ghost_films.h"
 #include "render/integrators/integrator.h"
 #include "render/integrators/scene_search.h"
 #include "render/integrators/wavefront.h"
@@ -129,7 +131,8 @@ class StreamIntegrator : public Integrator {
     float share = 0;
     Color color;
   };
-  std::vector<Veil> veils_;  ///< by camera ray, if there is fog
+  std::vector<Veil> veils_;           ///< by camera ray, if there is fog
+  std::optional<GhostFilms> ghosts_;  ///< if there are any; not of a record
 
   // Working memory of one stream.
   std::vector<Vec3f> float_points_;  ///< by ray, if shadow rays start by an epsilon

@@ -49,6 +49,8 @@ struct Flatten {
     flat.constant = m.radiance;
     return flat;
   }
+  /// Of the ones that rays of no kernel meet.
+  FlatMaterial operator()(const Ghost& m) const { return (*this)(Matte{m.color}); }
   FlatMaterial operator()(const Phong& m) const {
     FlatMaterial flat;
     flat.constant = held(m.color * held(gray(m.ka) + ambient));

@@ -100,6 +100,13 @@ std::vector<Sphere> emissive_spheres(const Scene& scene) {
   return emissive;
 }
 
+/// Ghosts are primitives of their own.
+std::optional<std::vector<ShownGroup>> expand(Scene& scene) {
+  if (!may_have_ghosts(scene)) return share_or_expand(scene);
+  expand_instances(scene);
+  return std::nullopt;
+}
+
 /// Of spheres that shine and are cut.
 constexpr const char* cut_light_note =
     "spheres that shine and are cut by a clip plane are no lights to sample: paths find their "
@@ -109,6 +116,26 @@ constexpr const char* cut_light_note =
 std::size_t add_clip_planes(Scene& scene) {
   for (const Clip& clip : scene.clips) scene.planes.push_back({clip.point, clip.normal, {}});
   return scene.clips.size();
+}
+
+/// Takes the ghosts out of a scene; null if there are none.
+Result<std::shared_ptr<const Ghosts>> prepare_ghosts(Scene& scene,
+                                                     const ParallelFor& parallel_for) {
+  const std::shared_ptr<const Ghosts> none;
+  if (!may_have_ghosts(scene)) return none;
+  Scene films;
+  auto taken = take_ghosts(scene, films);
+  if (!taken) return taken.error();
+  if (films.spheres.empty() && films.capsules.empty()) return none;
+  films.clips = scene.clips;
+  const std::size_t clips = add_clip_planes(films);
+  PreparedScene prepared{.geometry = geometry_of(films, std::nullopt, parallel_for),
+                         .planes = std::move(films.planes),
+                         .clips = clips,
+                         .of_capsules = materials_of(films.capsules),
+                         .plain_materials = plain_materials(scene)};
+  taken.value().scene = std::make_shared<const PreparedScene>(std::move(prepared));
+  return std::make_shared<const Ghosts>(std::move(taken).value());
 }
 
 /// What the rays through the centre of the camera's lens have in common, or all primary rays of a
@@ -144,6 +171,19 @@ Status check_size(int width, int height) {
 }
 
 }  // namespace
+
+std::uint32_t PreparedScene::primitive_id(const Hit& hit) const {
+  const auto id = static_cast<std::uint32_t>(hit.id);
+  const auto cuts = static_cast<std::uint32_t>(clips);
+  if (!ghosts) return is_capsule(hit) ? id - cuts : id;
+  if (is_sphere(hit)) return ghosts->sphere_ids[id];
+  const std::uint32_t first_plane = ghosts->spheres;
+  if (geometry.is_plane(hit))
+    return first_plane + id - static_cast<std::uint32_t>(geometry.sphere_count());
+  const std::uint32_t first_capsule =
+      first_plane + static_cast<std::uint32_t>(geometry.plane_count()) - cuts;
+  return first_capsule + ghosts->capsule_ids[capsule_number(hit)];
+}
 
 bool PreparedScene::is_cut(const Sphere& sphere) const {
   const std::span<const Plane> all = clip_planes();
@@ -183,7 +223,7 @@ Status settle_camera(Scene& scene, int width, int height, const ParallelFor& par
   if (auto done = check_size(width, height); !done) return done;
   if (auto done = validate_in_parallel(scene, parallel_for); !done) return done;
   if (scene.camera) return {};
-  share_or_expand(scene);
+  expand(scene);
   std::vector<std::string> notes;
   return add_camera(scene, width, height, parallel_for, notes);
 }
@@ -193,7 +233,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   const FloatEnvironment floats;
   if (auto done = check_size(width, height); !done) return done.error();
   if (auto done = validate_in_parallel(scene, parallel_for); !done) return done.error();
-  const std::optional<std::vector<ShownGroup>> groups = share_or_expand(scene);
+  const auto groups = expand(scene);
   std::vector<std::string> notes;
   if (auto done = add_camera(scene, width, height, parallel_for, notes); !done) return done.error();
   const bool lit_by_default = lacks_light(scene, method);
@@ -205,6 +245,8 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   std::optional<SphereBounds> bounds;
   if (scene.image.fog > 0) bounds = bounds_of(scene);
   const std::vector<Sphere> sample = sample_spheres(scene, groups);
+  auto ghosts = prepare_ghosts(scene, parallel_for);
+  if (!ghosts) return ghosts.error();
   const std::size_t clips = add_clip_planes(scene);
   PreparedScene prepared{.geometry = geometry_of(scene, groups, parallel_for),
                          .planes = std::move(scene.planes),  // only now: the geometry has read them
@@ -224,6 +266,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
                          .distortion = std::move(scene.distortion).value_or(DistortionMap{}),
                          .bounds = bounds,
                          .outline_groups = std::move(scene.outline_groups),
+                         .ghosts = std::move(ghosts).value(),
                          .notes = std::move(notes)};
   const auto is_cut = [&prepared](const Sphere& sphere) { return prepared.is_cut(sphere); };
   if (std::erase_if(prepared.emissive_spheres, is_cut) > 0 && method == Method::path)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -14,6 +15,7 @@
 #include "render/prepare/area_lights.h"
 #include "render/prepare/environment_light.h"
 #include "render/prepare/flat_material.h"
+#include "render/prepare/ghosts.h"
 #include "render/prepare/sphere_bounds.h"
 #include "simd/abi/isa.h"
 #include "simd/geometry/geometry.h"
@@ -52,6 +54,7 @@ struct PreparedScene {
   Coherence central_coherence{};         ///< the same for rays through the centre of the lens
   std::optional<SphereBounds> bounds{};  ///< if the scene asks for fog
   OutlineGroups outline_groups;          ///< by id, or by id less that of the first capsule
+  std::shared_ptr<const Ghosts> ghosts;  ///< beside the geometry; null: none
   std::vector<std::string> notes;        ///< automatic choices, a sentence each
 
   /// Whether a hit is that of a sphere. Precondition of this and of the functions below: it is a
@@ -67,11 +70,8 @@ struct PreparedScene {
   [[nodiscard]] std::span<const Plane> clip_planes() const { return std::span(planes).last(clips); }
   /// Whether a clip plane cuts a part of a sphere off.
   [[nodiscard]] bool is_cut(const Sphere& sphere) const;
-  /// The id of a primitive for users, who do not count clip planes.
-  [[nodiscard]] std::uint32_t primitive_id(const Hit& hit) const {
-    const auto id = static_cast<std::uint32_t>(hit.id);
-    return clips == 0 || !is_capsule(hit) ? id : id - static_cast<std::uint32_t>(clips);
-  }
+  /// The id of a primitive for users, who count ghosts, but no clip planes.
+  [[nodiscard]] std::uint32_t primitive_id(const Hit& hit) const;
   /// The number of a capsule that was hit among the capsules.
   [[nodiscard]] std::uint32_t capsule_number(const Hit& hit) const {
     return static_cast<std::uint32_t>(hit.id) - geometry.sphere_count() - geometry.plane_count();

@@ -151,9 +151,10 @@ class BarePixels::Counter {
   FilmAxis x_, y_;
 };
 
-BarePixels::BarePixels(const Geometry& geometry, const CameraView& camera, const PixelRect& rect,
+BarePixels::BarePixels(const PreparedScene& scene, const PixelRect& rect,
                        const ParallelFor& parallel_for)
     : rect_(rect) {
+  const CameraView& camera = scene.camera_view;
   const bool is_plain =
       camera.kind == CameraKind::pinhole || camera.kind == CameraKind::orthographic;
   if (!is_plain || camera.weighs || camera.distortion.st != nullptr || rect.empty()) return;
@@ -164,7 +165,7 @@ BarePixels::BarePixels(const Geometry& geometry, const CameraView& camera, const
   counts_.assign((static_cast<std::size_t>(columns_) + 1) * (static_cast<std::size_t>(rows_) + 1),
                  0);
   Counter counter(*this, camera);
-  visit_primitives(geometry, parallel_for,
+  visit_primitives(scene, parallel_for,
                    [&counter](const auto& primitive) { counter.add(primitive); });
   sum_up();
 }

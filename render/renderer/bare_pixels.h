@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/optics/camera_view.h"
 #include "render/frame/pixel_rect.h"
-#include "simd/geometry/geometry.h"
 
 namespace boule {
+
+struct PreparedScene;
 
 /// The pixels of a picture through which no ray of the camera meets a sphere or a capsule, as far
 /// as that is certain without a ray. It takes the rectangles around all of them in the picture, so
@@ -21,8 +21,7 @@ class BarePixels {
   /// Of the frame's pixels in `rect`. None is known unless the camera is a pinhole or an
   /// orthographic one without distortion. Throws std::bad_alloc, and the exceptions of
   /// `parallel_for`.
-  BarePixels(const Geometry& geometry, const CameraView& camera, const PixelRect& rect,
-             const ParallelFor& parallel_for);
+  BarePixels(const PreparedScene& scene, const PixelRect& rect, const ParallelFor& parallel_for);
 
   /// Whether all samples of a pixel of the frame are certain to miss.
   [[nodiscard]] bool is_bare(int x, int y) const {

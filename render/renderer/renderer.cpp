@@ -111,13 +111,12 @@ Result<Renderer> Renderer::create(std::shared_ptr<const PreparedScene> scene,
         return Diagnostic::about("render.aa",
                                  "is for cameras without a lens: where it blurs, ask for noise");
       }
-      small_spheres = SmallSpheres(scene->geometry, scene->camera_view, options.width,
-                                   rendered_rect(options), scheduler.parallel_for());
+      small_spheres =
+          SmallSpheres(*scene, options.width, rendered_rect(options), scheduler.parallel_for());
     }
     BarePixels bare_pixels;
     if (bare_pixels_pay(options, *scene)) {
-      bare_pixels = BarePixels(scene->geometry, scene->camera_view, rendered_rect(options),
-                               scheduler.parallel_for());
+      bare_pixels = BarePixels(*scene, rendered_rect(options), scheduler.parallel_for());
     }
     return Renderer(fitted, std::move(scene), *kernels.value(), std::move(small_spheres),
                     std::move(bare_pixels));

@@ -4,7 +4,7 @@
 #include <atomic>
 #include <cmath>
 
-#include "core/optics/camera_view.h"
+#include "render/prepare/prepared_scene.h"
 #include "render/prepare/projection.h"
 #include "render/renderer/visit_primitives.h"
 
@@ -95,12 +95,13 @@ class SmallSpheres::Marker {
   std::atomic<bool> any_ = false;
 };
 
-SmallSpheres::SmallSpheres(const Geometry& geometry, const CameraView& camera, int width,
-                           const PixelRect& rect, const ParallelFor& parallel_for)
+SmallSpheres::SmallSpheres(const PreparedScene& scene, int width, const PixelRect& rect,
+                           const ParallelFor& parallel_for)
     : rect_(rect), marks_(static_cast<std::size_t>(rect.area())) {
+  const CameraView& camera = scene.camera_view;
   Marker marker(*this, camera, width);
   const auto add = [&marker](const auto& primitive) { marker.add(primitive); };
-  visit_primitives(geometry, parallel_for, add);
+  visit_primitives(scene, parallel_for, add);
   if (camera.distortion.st != nullptr) everywhere_ = marker.any();
   if (!marker.any() || everywhere_) marks_ = {};
 }

@@ -5,13 +5,11 @@
 #include <vector>
 
 #include "core/base/parallel.h"
-#include "core/math/vec.h"
 #include "render/frame/pixel_rect.h"
-#include "simd/geometry/geometry.h"
 
 namespace boule {
 
-struct CameraView;
+struct PreparedScene;
 
 /// The pixels of a picture in which spheres and capsules may hide from the rays through the pixels'
 /// centres: those that a sphere touches, or a part of a capsule, which is at most 1.5 pixels wide.
@@ -21,7 +19,7 @@ class SmallSpheres {
   SmallSpheres() = default;
   /// Of the frame's pixels in `rect`, in a frame `width` pixels wide. Preconditions: the camera has
   /// no lens. Throws std::bad_alloc, and the exceptions of `parallel_for`.
-  SmallSpheres(const Geometry& geometry, const CameraView& camera, int width, const PixelRect& rect,
+  SmallSpheres(const PreparedScene& scene, int width, const PixelRect& rect,
                const ParallelFor& parallel_for);
 
   /// Precondition: the pixel lies in `rect`.

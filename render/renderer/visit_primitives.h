@@ -5,6 +5,7 @@
 
 #include "core/base/chunks.h"
 #include "core/base/parallel.h"
+#include "render/prepare/prepared_scene.h"
 #include "simd/geometry/bvh_builder.h"
 #include "simd/geometry/geometry.h"
 #include "simd/geometry/part_placement.h"
@@ -37,6 +38,14 @@ void visit_primitives(const Geometry& geometry, const ParallelFor& parallel_for,
         visit(geometry.capsule(static_cast<std::uint32_t>(slot)));
     }
   });
+}
+
+/// The same of a prepared scene, ghosts included.
+template <class Visit>
+void visit_primitives(const PreparedScene& scene, const ParallelFor& parallel_for,
+                      const Visit& visit) {
+  visit_primitives(scene.geometry, parallel_for, visit);
+  if (scene.ghosts) visit_primitives(scene.ghosts->scene->geometry, parallel_for, visit);
 }
 
 }  // namespace boule

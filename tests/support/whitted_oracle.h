@@ -197,6 +197,8 @@ class WhittedOracle {
            Rgb(m.color) * refracted(at, n1 / n2, c2, bounces) * (1 - f);
   }
   [[nodiscard]] Rgb shade(const Emissive& m, const Local&, int) const { return Rgb(m.radiance); }
+  /// Rays of the oracle meet no ghost.
+  [[nodiscard]] Rgb shade(const Ghost&, const Local&, int) const { return {}; }
   [[nodiscard]] Rgb shade(const Phong& m, const Local& at, int bounces) const {
     Rgb sum = Rgb(m.color) * (Rgb(static_cast<double>(m.ka)) + Rgb(scene_.ambient)) +
               direct(at, Rgb(m.color), static_cast<double>(m.kd), static_cast<double>(m.ks),

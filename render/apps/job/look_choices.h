@@ -92,6 +92,11 @@ inline auto sphere_choices() {
       choice<L>(spheres, "select", &L::select,
                 TextRule{parse_words, "such as \"type == 1 && x > 0\""}, "EXPR",
                 "Which particles are shown, such as \"type == 1 && x > 0\" (all)"),
+      choice<L>(
+          spheres, "ghost", &L::ghost, TextRule{parse_words, "such as \"chain != 'L'\""}, "EXPR",
+          "Which particles are ghosts, which you see through, such as \"chain != 'L'\" (none)"),
+      choice<L>(spheres, "opacity", &L::opacity, rule::from_to(0, 1), "X",
+                "How much ghosts hide, 0 to 1 (0.2)"),
       choice<L>(spheres, "labels", &L::labels, TextRule{parse_words, "such as \"name == 'CA'\""},
                 "EXPR",
                 "Which particles have a text on the picture, such as \"name == 'CA'\" (none)"),

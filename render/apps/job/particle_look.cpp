@@ -201,6 +201,8 @@ void add_particles(std::string& text, const std::string& file, const LookOptions
   }
   if (options.arrow_scale) add_line(text, "arrow_scale", number(*options.arrow_scale));
   if (!options.select.empty()) add_line(text, "select", toml_string(options.select));
+  if (!options.ghost.empty()) add_line(text, "ghost", toml_string(options.ghost));
+  if (options.opacity) add_line(text, "opacity", number(*options.opacity));
   if (!options.labels.empty()) add_line(text, "labels", toml_string(options.labels));
   if (!options.label_text.empty()) add_line(text, "label_text", list(options.label_text));
   if (options.wrap) add_line(text, "wrap", "true");

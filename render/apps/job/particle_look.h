@@ -76,6 +76,8 @@ struct LookOptions {
   bool boundary = false;                          ///< images on the faces of the cell
   std::optional<std::array<int, 3>> replicate{};  ///< images along the cell's edges
   std::string select{};                           ///< which particles
+  std::string ghost{};                            ///< which particles are ghosts
+  std::optional<double> opacity{};                ///< of ghosts, 0 .. 1
   std::string labels{};                           ///< which particles have a text
   std::vector<std::string> label_text{};          ///< columns of it
   std::optional<ViewChoice> view{};               ///< in which the camera looks

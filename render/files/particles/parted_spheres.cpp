@@ -92,6 +92,7 @@ void add_counts(const ParticleColors& part, ParticleColors& colors) {
 std::string what_needs_all(const ParticleFrame& some, const ParticleStyle& style) {
   if (style.boundary || style.replicate != std::array<int, 3>{1, 1, 1})
     return "images are those of all particles";
+  if (!style.ghost.empty()) return "ghosts are found among all particles";
   if (draws_more_than_spheres(style)) return "bonds and lines are those of all particles";
   const auto* const lines = std::get_if<OutlineRule>(&style.outline_by);
   const bool has_groups = !std::holds_alternative<std::monostate>(style.outline_by) &&

@@ -12,6 +12,7 @@
 #include "core/scene/scene.h"
 #include "render/files/file/sphere_room.h"
 #include "render/files/particles/colors/particle_colors.h"
+#include "render/files/particles/ghost_materials.h"
 #include "render/files/particles/particle_columns.h"
 #include "render/files/particles/particle_radii.h"
 #include "render/files/particles/select/particle_select.h"
@@ -236,6 +237,8 @@ Result<ParticleSpheres> ParticleSpheres::make(ParticleFrame read, const Particle
   made.radii_ = std::move(radii.value().radii);
   made.smallest_radius_ = radii.value().smallest;
   made.materials_ = std::move(materials.value().materials);
+  if (auto done = make_ghosts(frame, style, made.materials_, parallel_for); !done)
+    return done.error();
   if (auto done = made.add_bonds(style, plan.value(), source.value(), name_of, parallel_for); !done)
     return done.error();
   if (auto done = made.add_groups(style, plan.value(), parallel_for); !done) return done.error();

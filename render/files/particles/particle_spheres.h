@@ -34,10 +34,10 @@ class ParticleSpheres {
  public:
   /// Errors have a message and, as their key, the key of [[particles]] that is at fault ("file",
   /// "select", "radius", "scale", "color", "color.by", "color.range", "material", "outline_by",
-  /// "wrap", "unwrap", "boundary", "replicate", "labels", "label_text"): an unknown column (with
-  /// the one that was meant, if any), a radius that is not above 0 or not finite with its particle
-  /// (from 1, in the order of the frame), no cell to wrap into, more spheres than there is memory
-  /// for or than ids allow. Throws std::bad_alloc. The same for any threads.
+  /// "wrap", "unwrap", "boundary", "replicate", "labels", "label_text", "ghost"): an unknown column
+  /// (with the one that was meant, if any), a radius that is not above 0 or not finite with its
+  /// particle (from 1, in the order of the frame), no cell to wrap into, more spheres than there is
+  /// memory for or than ids allow. Throws std::bad_alloc. The same for any threads.
   static Result<ParticleSpheres> make(ParticleFrame read, const ParticleStyle& style,
                                       const ParallelFor& parallel_for = serial_for);
 

@@ -84,6 +84,7 @@ std::vector<std::string> columns_of(const ParticleStyle& style) {
   add_color_columns(style.color, names);
   add_select_columns(style.select, names);
   add_select_columns(style.labels.select, names);
+  add_select_columns(style.ghost, names);
   add_label_columns(style.labels, names);
   if (style.arrows) add_arrow_columns(style.arrows->names, names);
   add_outline_columns(style.outline_by, names);

@@ -129,7 +129,10 @@ struct ParticleStyle {
   OutlineChoice outline_by{};
   /// Which particles: "type == 1 && x > 0", 'species == "Fe"' (SelectExpression); empty: all.
   std::string select{};
-  LabelRule labels{};     ///< of those that are shown
+  LabelRule labels{};   ///< of those that are shown
+  std::string ghost{};  ///< which of those that are shown are ghosts; empty: none
+  /// The index of the material of ghosts, below MaterialRef::max_colored.
+  std::uint32_t ghost_material = 0;
   bool wrap = false;      ///< into the cell, along its periodic directions
   bool unwrap = false;    ///< what is bonded through a face is moved together
   bool boundary = false;  ///< with the images of particles on faces that are on opposite faces

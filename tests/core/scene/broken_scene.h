@@ -20,7 +20,8 @@ inline Scene full_scene() {
   scene.camera = PinholeCamera{{{0, 1, 6}, {0, 1, 0}, {0, 1, 0}}, 40, FovAxis::x};
   scene.background = GradientBackground{};
   scene.materials = {{"matte", Matte{}}, {"plastic", Plastic{}},   {"metal", Metal{}},
-                     {"glass", Glass{}}, {"emissive", Emissive{}}, {"phong", Phong{}}};
+                     {"glass", Glass{}}, {"emissive", Emissive{}}, {"phong", Phong{}},
+                     {"ghost", Ghost{}}};
   scene.lights = {PointLight{{4, 6, 4}, {1, 1, 1}, Falloff::none}, DirectionalLight{},
                   SphereLight{}};
   scene.spheres = {{{0, 1, 0}, 1, 0}, {{2, 1, 0}, 0.5f, 5}};

@@ -153,6 +153,10 @@ const Breakage materials[] = {
      [](Scene& s) { material<Phong>(s).shininess = -1; }},
     {"PhongTransmission", "material.phong.transmission", not_negative,
      [](Scene& s) { material<Phong>(s).transmission = -1; }},
+    {"GhostColor", "material.ghost.color", not_negative,
+     [](Scene& s) { material<Ghost>(s).color.b = nan; }},
+    {"GhostOpacity", "material.ghost.opacity", "must be from 0 to 1",
+     [](Scene& s) { material<Ghost>(s).opacity = 1.1f; }},
     {"PhongIor", "material.phong.ior", positive, [](Scene& s) { material<Phong>(s).ior = -1; }},
 };
 INSTANTIATE_TEST_SUITE_P(Materials, ValidateRefuses, testing::ValuesIn(materials), name_of);
@@ -163,7 +167,7 @@ const Breakage primitives[] = {
     {"RadiusNegative", "sphere[1].radius", "is -2", [](Scene& s) { s.spheres[1].radius = -2; }},
     {"RadiusInfinite", "sphere[0].radius", positive, [](Scene& s) { s.spheres[0].radius = inf; }},
     {"SphereMaterial", "sphere[1].material", "names no material",
-     [](Scene& s) { s.spheres[1].material = 6; }},
+     [](Scene& s) { s.spheres[1].material = 7; }},
     {"PointInfinite", "plane[0].point", finite, [](Scene& s) { s.planes[0].point.x = -inf; }},
     {"NormalZero", "plane[0].normal", "zero vector",
      [](Scene& s) {

@@ -91,7 +91,7 @@ TEST(BarePixels, NothingIsSeenThroughThem) {
     scene.camera = scattered_camera(seed);
     const PreparedScene prepared = prepare(scene, width, height).value();
     const PixelRect rect = seed % 3 == 0 ? PixelRect{7, 5, 40, 29} : PixelRect{0, 0, width, height};
-    const BarePixels bare(prepared.geometry, prepared.camera_view, rect, serial_for);
+    const BarePixels bare(prepared, rect, serial_for);
     CaseRandom random(seed, 2);
     for (const Vec3d& point : points_of(scene, random)) {
       const auto at = shown(prepared.camera_view, point);
@@ -128,7 +128,7 @@ TEST(BarePixels, RoundedDirectionsCount) {
     scene.spheres = {{middle, 0.02F, MaterialRef(0)}};
     scene.camera = pinhole({0, 0, 0}, middle, 5e-6F);
     const PreparedScene prepared = prepare(scene, width, height).value();
-    const BarePixels bare(prepared.geometry, prepared.camera_view, {0, 0, width, height},
+    const BarePixels bare(prepared, {0, 0, width, height},
                           serial_for);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
@@ -155,6 +155,7 @@ TEST(BarePixels, PictureIsThatOfAllRays) {
         Case{Method::path, 0, 0, 2, true}, Case{Method::path, 0, 0.1F, 0, false}}) {
     Scene scene = capsule_scene(width, height);
     scene.planes.clear();
+    scene.spheres.push_back({{4, 3, 0}, 0.7F, add_material(scene, Ghost{})});
     scene.camera = pinhole({0, 0, 20}, {0, 0, 0}, 45);
     RenderOptions options = options_of(scene);
     options.method = method;
@@ -189,7 +190,7 @@ TEST(BarePixels, OtherCamerasHaveNone) {
         Camera(PinholeCamera{{eye, {0, 0, 0}, {0, 1, 0}}, 45, FovAxis::x})}) {
     scene.camera = camera;
     const PreparedScene prepared = prepare(scene, width, height).value();
-    const BarePixels bare(prepared.geometry, prepared.camera_view, {0, 0, width, height},
+    const BarePixels bare(prepared, {0, 0, width, height},
                           serial_for);
     EXPECT_EQ(bare.is_bare(5, 5), std::holds_alternative<PinholeCamera>(camera));
     EXPECT_FALSE(bare.is_bare(-1, 5));

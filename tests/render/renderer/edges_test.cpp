@@ -178,6 +178,8 @@ TEST(Edges, SmallSpheresStayInThePicture) {
   scene.materials[0].material = Emissive{{1, 1, 1}};
   scene.spheres.clear();
   scene.planes.clear();
+  const MaterialRef film(scene.materials.size());
+  scene.materials.push_back({"film", Ghost{{1, 1, 1}, 0.5F}});
   for (const Camera& camera :
        {Camera(PinholeCamera{{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}}, 90, FovAxis::x}),
         Camera(OrthographicCamera{{{0, 0, 0}, {0, 0, -1}, {0, 1, 0}}, 15}),
@@ -186,13 +188,12 @@ TEST(Edges, SmallSpheresStayInThePicture) {
     scene.spheres.clear();
     for (int i = 0; i < 100; ++i) {
       const auto x = static_cast<float>(i % 10) - 4.47F, y = static_cast<float>(i / 10) - 4.53F;
-      scene.spheres.push_back({{x, y * 0.7F, -9}, 0.03F, MaterialRef(0)});
+      scene.spheres.push_back({{x, y * 0.7F, -9}, 0.03F, i % 3 == 0 ? film : MaterialRef(0)});
     }
     RenderOptions options = options_with(8);
     const MeasuredPicture picture = measured(scene, options);
     const PreparedScene prepared = prepare(scene, width, height).value();
-    const SmallSpheres small(prepared.geometry, prepared.camera_view, width, picture.rect(),
-                             serial_for);
+    const SmallSpheres small(prepared, width, picture.rect(), serial_for);
     options.aa = 0;
     options.spp = 256;
     const Image reference = Renderer::create(scene, options).value().render().value();

@@ -23,6 +23,7 @@
 #include "render/files/scene_file/npy/npy_source.h"
 #include "render/frame/scheduler.h"
 #include "render/memory/available_memory.h"
+#include "render/prepare/ghosts.h"
 
 namespace boule::cli {
 namespace {
@@ -101,6 +102,8 @@ Result<Input> whole_scene(const PackCommand& command) {
     return Diagnostic::in_file(reading.scene, "its spheres are packed already");
   input.spheres = std::move(loaded.value().source);
   if (input.spheres) return Result<Input>(std::move(input));
+  if (may_have_ghosts(input.scene))
+    return Diagnostic::in_file(reading.scene, "packed scenes have no ghosts");
   expand_instances(input.scene);
   input.spheres = std::make_shared<SpheresInMemory>(std::exchange(input.scene.spheres, {}));
   return Result<Input>(std::move(input));

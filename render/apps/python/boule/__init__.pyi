@@ -80,6 +80,10 @@ class Phong(_Keys):
     transmission: float
     ior: float
 
+class Ghost(_Keys):
+    color: _Color
+    opacity: float
+
 class Pinhole(_Keys):
     eye: _Vector | None
     look_at: _Vector | None
@@ -251,6 +255,8 @@ class Particles(_Keys):
     arrows: str | Sequence[str] | None
     arrow_scale: float | None
     select: str | None
+    ghost: str | None
+    opacity: float | None
     labels: str | None
     label_text: str | Sequence[str] | None
     wrap: bool | None
@@ -259,7 +265,7 @@ class Particles(_Keys):
     replicate: Sequence[int] | None
     material: _Material | str | None
 
-_Material = Union[Matte, Plastic, Metal, Glass, Emissive, Phong]
+_Material = Union[Matte, Plastic, Metal, Glass, Emissive, Phong, Ghost]
 _Camera = Union[Pinhole, Orthographic, Fisheye, ThinLens, Lens, Fit]
 _Background = Union[ConstantBackground, GradientBackground, EnvironmentBackground]
 _Light = Union[PointLight, DirectionalLight, SphereLight]
@@ -579,6 +585,8 @@ class _Shown(_Keys):
     arrow_scale: float | None
     select: str | None
     clip: str | Sequence[str] | None
+    ghost: str | None
+    opacity: float | None
     labels: str | None
     label_text: str | Sequence[str] | None
     wrap: bool

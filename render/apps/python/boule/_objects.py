@@ -28,7 +28,7 @@ _MORE = {
     "particles": (
         "file", "frame", "format", "columns", "water", "topology", "radius", "radii", "scale",
         "color", "colors", "nan_color", "outline_by", "style", "bonds", "bond_radius", "bond_color",
-        "cell_edges", "axes", "arrows", "arrow_scale", "select", "labels", "label_text", "wrap",
+        "cell_edges", "axes", "arrows", "arrow_scale", "select", "ghost", "opacity", "labels", "label_text", "wrap",
         "unwrap", "boundary",
         "replicate", "material",
     ),
@@ -236,6 +236,7 @@ _ABOUT = {
         "metal": "A coloured mirror.",
         "glass": "Mirrors and refracts; color tints each crossing, ior is the index of refraction.",
         "emissive": "Radiates on both sides, reflects nothing.",
+        "ghost": "A thin film that only the camera sees: you see through it.",
         "phong": "Whitted's model as it stands: ka, kd, ks, shininess, transmission, ior.",
     },
     "camera": {

@@ -78,9 +78,9 @@ def load(source, *, frame=None, polygons="plane", **look):
         outline_by (what outlines go around: "chain", "molecule", ...), style ("space-filling",
         "balls-and-sticks", "sticks"), bonds (a rule, or a distance), bond_radius, bond_color,
         cell_edges, axes, arrows (three columns, or the one name that they have before x, y, z),
-        arrow_scale, select, clip ("x<5", or a list of such), labels and label_text (texts of
-        particles, which render() of the file draws and a Scene does not keep), wrap, unwrap,
-        boundary, replicate, view, up, roll, ortho, fov, margin.
+        arrow_scale, select, clip ("x<5", or a list of such), ghost (which particles you see
+        through) and opacity, labels and label_text (texts of particles, which render() of the file
+        draws and a Scene does not keep), wrap, unwrap, boundary, replicate, view, up, roll, ortho, fov, margin.
 
     Raises boule.Error with file, line, column and key.
     """

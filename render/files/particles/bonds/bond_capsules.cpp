@@ -69,10 +69,16 @@ class BondDrawer {
   [[nodiscard]] BondEnd end(std::uint32_t particle, const ImagePlace& place) const {
     const MaterialRef own = particles_.materials[particle];
     return {(particles_.positions[particle] - particles_.origin) + particles_.images.shift(place),
-            static_cast<double>(particles_.radii[particle]), look_.material.value_or(own),
+            static_cast<double>(particles_.radii[particle]), material_of(own),
             particles_.groups == nullptr
                 ? 0
                 : particles_.groups->at(particle, place, particles_.images.counts())};
+  }
+
+  /// That of a bond's end. Bonds of one colour are ghosts where their particles are.
+  [[nodiscard]] MaterialRef material_of(const MaterialRef& own) const {
+    if (!look_.material || !look_.material->has_color()) return look_.material.value_or(own);
+    return MaterialRef::colored(own.index(), look_.material->color());
   }
 
   /// The share of the way from an image that is shown to one that is not, up to the face of all

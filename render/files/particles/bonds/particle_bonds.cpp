@@ -22,7 +22,7 @@ constexpr std::size_t most_of_bonded_start = 1000;
 constexpr double ball_of_vdw = 0.23, ball_of_others = 0.5;
 // In angstrom, and as shares of a diameter.
 constexpr double stick_of_balls = 0.14, stick_alone = 0.22;
-constexpr double share_of_balls = 0.1, share_alone = 0.15;
+constexpr double share_of_balls = 0.1, share_alone = 0.25;
 
 /// Ions of salts: what elements of groups 1 and 2 are, but hydrogen, beryllium and magnesium.
 bool makes_bonds(const Element& element) {

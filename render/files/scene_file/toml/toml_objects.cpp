@@ -15,6 +15,7 @@
 #include "render/files/scene_file/npy/npy_reader.h"
 #include "render/files/scene_file/toml/toml_color_map.h"
 #include "render/files/scene_file/toml/toml_entities.h"
+#include "render/files/scene_file/toml/toml_particle_style.h"
 #include "render/memory/scene_memory.h"
 
 namespace boule {
@@ -143,7 +144,8 @@ void TomlObjects::load_particles(ObjectTables& tables, bool may_stream) {
   for (auto& [table, source, particles] : tables.spheres) {
     if (source != ObjectTables::Source::particles) continue;
     const std::uint32_t material = colorable_material_of(table, "material");
-    particles = read_particles(table, material, options_, may_stream);
+    const std::uint32_t ghosts = ghost_material_of(table, material);
+    particles = read_particles(table, {material, ghosts}, options_, may_stream);
     if (!particles) return;
     notes_.insert(notes_.end(), particles->notes.begin(), particles->notes.end());
     facts_.push_back(particles->facts);
@@ -373,6 +375,17 @@ std::uint32_t TomlObjects::colorable_material_of(TomlTable& table, const char* k
                         std::to_string(MaterialRef::max_colored) +
                         " of the scene: those can be given colours");
   return 0;
+}
+
+/// The material of a table's ghosts; its own, if it has none.
+std::uint32_t TomlObjects::ghost_material_of(TomlTable& table, std::uint32_t material) {
+  const auto ghost = read_ghost(table, scene_.materials[material].material);
+  if (!ghost) return material;
+  const std::size_t index = scene_.materials.size();
+  scene_.materials.push_back({table.path() + " ghosts", *ghost});
+  if (index < MaterialRef::max_colored) return static_cast<std::uint32_t>(index);
+  table.report("ghost", "needs one more material than can be given colours");
+  return material;
 }
 
 std::uint32_t TomlObjects::add(DefaultMaterial& material) {

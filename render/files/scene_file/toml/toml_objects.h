@@ -120,6 +120,8 @@ class TomlObjects final : private TomlNames {
   /// The material of primitives whose colours `key` gives.
   std::uint32_t colorable_material_of(TomlTable& table, const char* key);
 
+  std::uint32_t ghost_material_of(TomlTable& table, std::uint32_t material);
+
   /// The material of objects that name none, added to the scene for the first of them.
   struct DefaultMaterial {
     const char* name;

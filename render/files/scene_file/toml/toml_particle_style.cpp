@@ -169,6 +169,17 @@ ColorRule read_color(TomlTable& table) {
 
 }  // namespace
 
+std::optional<Ghost> read_ghost(TomlTable& table, const Material& of) {
+  if (!table.has("ghost")) {
+    if (table.has("opacity")) table.report("opacity", "needs the particles of ghost");
+    return std::nullopt;
+  }
+  Ghost ghost{color_of(of)};
+  if (table.has("opacity")) table.read("opacity", ghost.opacity);
+  table.check(find_problem(Material(ghost)));
+  return ghost;
+}
+
 ParticleStyle read_particle_style(TomlTable& table) {
   ParticleStyle style;
   style.radius = read_radius(table);
@@ -182,6 +193,7 @@ ParticleStyle read_particle_style(TomlTable& table) {
   read_bond_keys(table, style);
   table.read("select", style.select);
   style.labels = read_labels(table);
+  table.read("ghost", style.ghost);
   table.read("wrap", style.wrap);
   table.read("unwrap", style.unwrap);
   table.read("boundary", style.boundary);

@@ -34,7 +34,7 @@ void check_format(TomlTable& table, const std::string& format) {
                              did_you_mean(format, known));
 }
 
-ParticleKeys read_particle_keys(TomlTable& table, std::uint32_t material) {
+ParticleKeys read_particle_keys(TomlTable& table, const ParticleMaterialIds& materials) {
   ParticleKeys keys;
   table.read("file", keys.written);
   table.read_file_name("file", keys.name);
@@ -45,7 +45,8 @@ ParticleKeys read_particle_keys(TomlTable& table, std::uint32_t material) {
   table.read("water", keys.file.water);
   if (table.has("topology")) table.read_file_name("topology", keys.file.topology);
   keys.style = read_particle_style(table);
-  keys.style.material = material;
+  keys.style.material = materials.own;
+  keys.style.ghost_material = materials.ghosts;
   table.finish({"file"});
   return keys;
 }
@@ -295,9 +296,9 @@ void ParticleTable::report_key(const Diagnostic& error) {
 
 }  // namespace
 
-std::optional<TomlParticles> read_particles(TomlTable& table, std::uint32_t material,
+std::optional<TomlParticles> read_particles(TomlTable& table, const ParticleMaterialIds& materials,
                                             const SceneFileOptions& options, bool may_stream) {
-  ParticleKeys keys = read_particle_keys(table, material);
+  ParticleKeys keys = read_particle_keys(table, materials);
   if (!table.ok()) return std::nullopt;
   keys.path = table.file_path(keys.name);
   if (!keys.file.topology.empty()) keys.file.topology = table.file_path(keys.file.topology);

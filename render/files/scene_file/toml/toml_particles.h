@@ -23,10 +23,15 @@ struct TomlParticles {
   std::vector<std::string> notes;  ///< each "FILE: SENTENCE"
 };
 
-/// Reads a table [[particles]] and the frame of its file. `material` is the one that it names.
+/// The indices of the material that a table names, and of that of its ghosts.
+struct ParticleMaterialIds {
+  std::uint32_t own, ghosts;
+};
+
+/// Reads a table [[particles]] and the frame of its file.
 /// Errors are reported through the table, those in the file's text at their place there; then there
 /// is no value. `may_stream`: the spheres may stay in the file, which is then their source.
-std::optional<TomlParticles> read_particles(TomlTable& table, std::uint32_t material,
+std::optional<TomlParticles> read_particles(TomlTable& table, const ParticleMaterialIds& materials,
                                             const SceneFileOptions& options, bool may_stream);
 
 }  // namespace boule

@@ -72,6 +72,13 @@ TEST(ParticleLook, HasClipPlanes) {
                                         "\n[[clip]]\npoint = [0, 0.5, 0]\nnormal = [0, -1, 0]\n"));
 }
 
+TEST(ParticleLook, HasGhosts) {
+  LookOptions look;
+  look.ghost = "chain != 'L'";
+  look.opacity = 0.25;
+  EXPECT_THAT(scene_of(look), HasSubstr("\nghost = \"chain != 'L'\"\nopacity = 0.25\n"));
+}
+
 TEST(ParticleLook, HasTheOptionsOfBonds) {
   LookOptions look;
   look.style = ParticleShape::balls_and_sticks;

@@ -36,11 +36,11 @@ def test_particle_file_matches_the_program(water, tmp_path):
     look = {"look": "dark", "color": "charge", "map": ["#0000ff", "#ff0000"], "range": (-1, 1),
             "radius": "covalent", "radii": {"O": 0.8}, "scale": 1.5, "view": "-x", "floor": True,
             "roll": 10, "fov": 30, "margin": 0.1, "wrap": True, "unwrap": True, "boundary": True, "replicate": (2, 1, 1), "nan_color": "white",
-            "clip": ["x<0.4", "0,1,1 > -1"]}  # fmt: skip
+            "clip": ["x<0.4", "0,1,1 > -1"], "ghost": "y < 0", "opacity": 0.4}  # fmt: skip
     told = ["--look", "dark", "--color", "charge", "--map", "#0000ff,#ff0000", "--range", "-1,1",
             "--radius", "covalent", "--radii", "O=0.8", "--scale", "1.5", "--view", "-x", "--floor",
             "--roll", "10", "--fov", "30", "--margin", "0.1", "--wrap", "--unwrap", "--boundary", "--replicate", "2x1x1", "--nan-color", "white",
-            "--clip", "x<0.4;0,1,1 > -1"]  # fmt: skip
+            "--clip", "x<0.4;0,1,1 > -1", "--ghost", "y < 0", "--opacity", "0.4"]  # fmt: skip
     subprocess.run([program(), "render", water, "-o", tmp_path / "a.exr", "--size", "48x36",
                     "--spp", "2", "-q", *told], check=True)  # fmt: skip
     boule.render(water, **SIZE, **look).save(tmp_path / "b.exr")

@@ -151,6 +151,7 @@ const Wrong wrong_looks[] = {
     {{"--clip", "x<5;"}, "--clip: 'x<5;' is not understood"},
     {{"--clip", "0,0,0<5"}, "--clip: '0,0,0<5' is not understood"},
     {{"--clip", "x<nan"}, "--clip: 'x<nan' is not understood"},
+    {{"--opacity", "2"}, "--opacity: '2' is not understood, expected a number from 0 to 1"},
     {{"--nan-color", "sliver"}, "; did you mean 'silver'?"},
     {{"--background", "transparant"}, "; did you mean 'transparent'?"},
     {{"--background", "Blakc"}, "; did you mean 'black'?"},
