@@ -37,7 +37,8 @@ void put_hit(const HitStream& hits, std::size_t k, const Hit& hit) {
 }  // namespace
 
 SceneSearch::SceneSearch(const PreparedScene& scene, const KernelTable& kernels)
-    : kernels_(kernels),
+    : scene_(scene),
+      kernels_(kernels),
       geometry_(scene.geometry.view()),
       planes_(std::span(scene.planes).first(scene.planes.size() - scene.clips)),
       clips_(scene.clip_planes()),
@@ -115,12 +116,34 @@ void SceneSearch::cut(const RayStream& rays) {
   }
 }
 
-/// The cap of the lowest id where these chords are cut at t.
-Hit SceneSearch::first_cap(std::span<const RayChord> chords, double t) {
+/// The squared distance of a point from the primitive's centre or segment, by that of its surface.
+double SceneSearch::share_of_radius(const RayChord& chord, const Vec3d& point) const {
+  const Hit hit{chord.enter, chord.id, chord.slot};
+  if (scene_.geometry.is_capsule(hit)) {
+    const Capsule capsule = scene_.geometry.capsule(hit.slot);
+    const Vec3d a = vec_cast<double>(capsule.a), way = vec_cast<double>(capsule.b) - a;
+    const double length2 = dot(way, way);
+    const double along = length2 > 0 ? std::clamp(dot(point - a, way) / length2, 0.0, 1.0) : 0;
+    const Vec3d off = point - (a + way * along);
+    return dot(off, off) / (double{capsule.radius} * double{capsule.radius});
+  }
+  const Sphere sphere = scene_.geometry.sphere(hit.slot);
+  const Vec3d off = point - vec_cast<double>(sphere.center);
+  return dot(off, off) / (double{sphere.radius} * double{sphere.radius});
+}
+
+/// The cap where these chords are cut at t.
+Hit SceneSearch::nearest_cap(const Ray& ray, std::span<const RayChord> chords, double t) const {
+  const Vec3d point = ray.org + vec_cast<double>(ray.dir) * t;
   Hit cap;
+  double nearest = infinity;
   for (const RayChord& chord : chords) {
-    const bool is_cut = chord.enter <= t && t < chord.leave;
-    if (is_cut && comes_before(t, chord.id, cap)) cap = {t, chord.id, chord.slot};
+    if (!(chord.enter <= t && t < chord.leave)) continue;
+    const double share = share_of_radius(chord, point);
+    const bool is_first = cap.id == no_primitive || share < nearest;
+    if (!is_first && !(share == nearest && comes_before(t, chord.id, cap))) continue;
+    cap = {t, chord.id, chord.slot};
+    nearest = share;
   }
   return cap;
 }
@@ -145,7 +168,7 @@ void SceneSearch::find_entered_caps(const RayStream& rays) {
   want_chords_at(rays, &Kept::from);
   visit_chords([&](std::size_t i, std::span<const RayChord> chords) {
     const std::size_t k = wanted_[i];
-    caps_[k] = first_cap(chords, kept_[k].from);
+    caps_[k] = nearest_cap(get_ray(rays, k), chords, kept_[k].from);
     if (caps_[k].id == no_primitive) return;
     Ray ray = get_ray(rays, k);
     ray.tmax = -infinity;
@@ -164,7 +187,7 @@ void SceneSearch::find_left_caps(const RayStream& rays, const HitStream& hits) {
   want_chords_at(rays, &Kept::to);
   visit_chords([&](std::size_t i, std::span<const RayChord> chords) {
     const std::size_t k = wanted_[i];
-    const Hit cap = first_cap(chords, kept_[k].to);
+    const Hit cap = nearest_cap(get_ray(rays, k), chords, kept_[k].to);
     if (cap.id == no_primitive || !comes_before(cap.t, cap.id, hit_at(hits, k))) return;
     put_hit(hits, k, cap);
     cap_planes_[k] = kept_[k].leaves;

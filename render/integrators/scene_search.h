@@ -19,8 +19,9 @@ namespace boule {
 /// what is left where it is in the whole one and behind all clip planes: between the greater t of
 /// entering and the lesser t of leaving, each in double. A hit is the first of the two ends within
 /// the ray's interval. Where a plane makes that end it is a hit of a cap, whose surface is the
-/// plane's; of several caps, that of the lowest id. A primitive that is entered at just that t has
-/// one, too. Planes of the scene are left whole.
+/// plane's; of several caps, that of the primitive whose centre, or whose segment, is nearest as a
+/// share of its radius, at equal shares that of the lower id. A primitive that is entered at just
+/// that t has one, too. Planes of the scene are left whole.
 class SceneSearch {
  public:
   /// `scene` and `kernels` must outlive it.
@@ -54,10 +55,12 @@ class SceneSearch {
   void find_left_caps(const RayStream& rays, const HitStream& hits);
   void find_again(const RayStream& rays, const HitStream& hits);
   void meet_planes(const RayStream& rays, const HitStream& hits);
-  [[nodiscard]] static Hit first_cap(std::span<const RayChord> chords, double t);
+  [[nodiscard]] Hit nearest_cap(const Ray& ray, std::span<const RayChord> chords, double t) const;
+  [[nodiscard]] double share_of_radius(const RayChord& chord, const Vec3d& point) const;
   template <class Visit>
   void visit_chords(const Visit& visit);
 
+  const PreparedScene& scene_;
   const KernelTable& kernels_;
   GeometryView geometry_;          ///< with planes only where nothing is cut
   std::span<const Plane> planes_;  ///< those of the scene, and those that cut it

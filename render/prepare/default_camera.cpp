@@ -98,6 +98,12 @@ SphereBounds bounds_of(const Scene& scene) {
   return {low, high};
 }
 
+SphereBounds bounds_without_outliers(const Scene& scene) {
+  const auto median = median_sphere(scene);
+  const auto rest = median ? without_outliers(scene, *median) : std::nullopt;
+  return bounds_of(rest ? *rest : scene);
+}
+
 View view_of(const Scene& scene, const ParallelFor& parallel_for) {
   return view_of(scene, settled_fit(scene, parallel_for), parallel_for);
 }

@@ -243,7 +243,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   const bool own_colors = has_own_colors(scene, parallel_for);
   std::vector<Sphere> emissive = emissive_spheres(scene);
   std::optional<SphereBounds> bounds;
-  if (scene.image.fog > 0) bounds = bounds_of(scene);
+  if (scene.image.fog > 0) bounds = bounds_without_outliers(scene);
   const std::vector<Sphere> sample = sample_spheres(scene, groups);
   auto ghosts = prepare_ghosts(scene, parallel_for);
   if (!ghosts) return ghosts.error();

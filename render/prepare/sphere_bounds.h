@@ -11,5 +11,7 @@ struct SphereBounds {
   Vec3d low, high;
 };
 SphereBounds bounds_of(const Scene& scene);
+/// The same without spheres that lie far from all others (without_outliers()).
+SphereBounds bounds_without_outliers(const Scene& scene);
 
 }  // namespace boule

@@ -47,10 +47,10 @@ std::vector<std::vector<int>> discs_of_lines(float width) {
 }  // namespace
 
 void Outline::draw(Image& image) const {
-  constexpr float all = outline_grid * outline_grid;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (points_[i] == 0) continue;
-    const float left = 1 - static_cast<float>(points_[i]) / all;
+  constexpr float all = most_ink;
+  for (std::size_t i = 0; i < ink_.size(); ++i) {
+    if (ink_[i] == 0) continue;
+    const float left = 1 - static_cast<float>(ink_[i]) / all;
     const float alpha = image.alpha.empty() ? 1 : 1 - (1 - image.alpha[i]) * left;
     image.set(i, image.pixels[i] * left, alpha);
   }
@@ -63,6 +63,7 @@ OutlineWorker::OutlineWorker(const BlockSetup& setup, const Lines& lines)
       width_(lines.width),
       discs_(discs_of_lines(lines.width)),
       order_(block_pixels(chunk)),
+      fog_(lines.fog),
       search_(setup.scene, setup.kernels) {
   samples_.resize(chunk * chunk, setup.scene.camera_view);
   samples_.resize(2);
@@ -80,6 +81,7 @@ void OutlineWorker::find(const PixelRect& block, Outline& outline) {
   marked_ = scaled(block, outline_grid);
   points_ = widened(marked_, static_cast<int>(discs_.back().size()) / 2 + 1, frame_);
   find_hits();
+  if (fog_.strength > 0) clear_.assign(static_cast<std::size_t>(block.area()), 0);
   steps_.assign(
       static_cast<std::size_t>(marked_.height()) * (static_cast<std::size_t>(marked_.width()) + 1),
       0);
@@ -90,6 +92,7 @@ void OutlineWorker::find(const PixelRect& block, Outline& outline) {
 void OutlineWorker::find_hits() {
   seen_.assign(static_cast<std::size_t>(points_.area()), Hit{});
   if (setup_.scene.clips > 0) surfaces_.assign(seen_.size(), no_primitive);
+  if (fog_.strength > 0) veils_.assign(seen_.size(), 0);
   for (int y = points_.y0; y < points_.y1; y += chunk) {
     for (int x = points_.x0; x < points_.x1; x += chunk) {
       if (!is_bare(x, y)) trace(x, y);
@@ -138,7 +141,11 @@ void OutlineWorker::trace(int x0, int y0) {
     if (!has_ray) return;
     if (!surfaces_.empty()) surfaces_[points_.index(x, y)] = met.id[ray];
     Hit& seen = seen_[points_.index(x, y)] = hits_.get(ray);
-    seen.t *= length(vec_cast<double>(rays_.dir(ray++)));
+    const Vec3d dir = vec_cast<double>(rays_.dir(ray));
+    if (fog_.strength > 0 && seen.id != no_primitive)
+      veils_[points_.index(x, y)] = fog_.share(depth_of(camera, rays_.org(ray) + dir * seen.t));
+    seen.t *= length(dir);
+    ++ray;
   });
 }
 
@@ -179,9 +186,11 @@ void OutlineWorker::mark_changes() {
       const Hit& here = hit(x, y);
       const std::size_t at = points_.index(x, y);
       if (x + 1 < points_.x1 && changes(at, points_.index(x + 1, y))) {
+        see_through_fog(at, points_.index(x + 1, y));
         mark_beside(x, y, disc_between(here, hit(x + 1, y)));
       }
       if (y + 1 < points_.y1 && changes(at, points_.index(x, y + 1))) {
+        see_through_fog(at, points_.index(x, y + 1));
         mark_below(x, y, disc_between(here, hit(x, y + 1)));
       }
     }
@@ -207,15 +216,27 @@ void OutlineWorker::mark_below(int x, int y, const std::vector<int>& half_widths
   }
 }
 
+/// The lines that are marked next go around the nearer of two points.
+void OutlineWorker::see_through_fog(std::size_t a, std::size_t b) {
+  if (fog_.strength > 0) seen_now_ = 1 - veils_[seen_[b].t < seen_[a].t ? b : a];
+}
+
 /// Marks points first .. last of a row, as far as they are in the block.
 void OutlineWorker::mark(int y, int first, int last) {
   first = std::max(first, marked_.x0);
   last = std::min(last, marked_.x1 - 1);
-  if (y < marked_.y0 || y >= marked_.y1 || first > last) return;
+  if (y < marked_.y0 || y >= marked_.y1 || first > last || seen_now_ == 0) return;
   int* const row = steps_.data() + static_cast<std::ptrdiff_t>(y - marked_.y0) *
                                        (static_cast<std::ptrdiff_t>(marked_.width()) + 1);
   ++row[first - marked_.x0];
   --row[last + 1 - marked_.x0];
+  if (!(fog_.strength > 0)) return;
+  const int width = marked_.width() / outline_grid;
+  const auto first_of_row = static_cast<std::size_t>((y - marked_.y0) / outline_grid * width);
+  for (int x = (first - marked_.x0) / outline_grid; x <= (last - marked_.x0) / outline_grid; ++x) {
+    float& clear = clear_[first_of_row + static_cast<std::size_t>(x)];
+    clear = std::max(clear, seen_now_);
+  }
 }
 
 void OutlineWorker::count_points(const PixelRect& block, Outline& outline) const {
@@ -231,7 +252,10 @@ void OutlineWorker::count_points(const PixelRect& block, Outline& outline) const
       }
     }
     for (int x = block.x0; x < block.x1; ++x) {
-      outline.set(x, y, counts[static_cast<std::size_t>(x - block.x0)]);
+      int ink = ink_of_point * counts[static_cast<std::size_t>(x - block.x0)];
+      if (fog_.strength > 0)
+        ink = static_cast<int>(static_cast<float>(ink) * clear_[block.index(x, y)] + 0.5F);
+      outline.set(x, y, ink);
     }
   }
 }

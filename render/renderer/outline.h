@@ -8,6 +8,7 @@
 #include "render/frame/pixel_rect.h"
 #include "render/image/image.h"
 #include "render/integrators/scene_search.h"
+#include "render/prepare/fog.h"
 #include "render/renderer/block_worker.h"
 #include "simd/abi/kernel_table.h"
 #include "simd/stream/stream_buffer.h"
@@ -19,23 +20,25 @@ namespace boule {
 /// sampled by rays through a grid of points, outline_grid x outline_grid in each pixel.
 inline constexpr int outline_grid = 4;
 
-/// The lines of a picture: the number of points of each pixel that lie on a line. Two threads may
-/// set different pixels in parallel.
+/// The ink of a point that lies on a line; in fog it is less.
+inline constexpr int ink_of_point = 15;
+
+/// The lines of a picture: the ink of each pixel's points together. Two threads may set different
+/// pixels in parallel.
 class Outline {
  public:
   /// Without lines, for the frame's pixels in `rect`.
   explicit Outline(const PixelRect& rect)
-      : rect_(rect), points_(static_cast<std::size_t>(rect.area())) {}
+      : rect_(rect), ink_(static_cast<std::size_t>(rect.area())) {}
 
-  /// Preconditions: pixel (x, y) of the frame lies in `rect`; `points` is at most the number of its
-  /// points.
-  void set(int x, int y, int points) {
-    points_[rect_.index(x, y)] = static_cast<std::uint8_t>(points);
-  }
+  /// The ink of a pixel all of whose points lie on lines.
+  static constexpr int most_ink = outline_grid * outline_grid * ink_of_point;
 
-  /// The number of points of pixel (x, y) of the frame that lie on a line. Precondition: it lies in
-  /// `rect`.
-  [[nodiscard]] int points(int x, int y) const { return points_[rect_.index(x, y)]; }
+  /// Preconditions: pixel (x, y) of the frame lies in `rect`; `ink` is at most most_ink.
+  void set(int x, int y, int ink) { ink_[rect_.index(x, y)] = static_cast<std::uint8_t>(ink); }
+
+  /// The ink of pixel (x, y) of the frame. Precondition: it lies in `rect`.
+  [[nodiscard]] int ink(int x, int y) const { return ink_[rect_.index(x, y)]; }
 
   /// Draws the lines in black. Alpha becomes that of the picture with the lines over it.
   /// Precondition: the picture has the same pixels.
@@ -46,7 +49,7 @@ class Outline {
 
  private:
   PixelRect rect_;
-  std::vector<std::uint8_t> points_;
+  std::vector<std::uint8_t> ink_;
 };
 
 /// The largest width of a line as a fraction of the nearer sphere's radius in the picture, so that
@@ -66,11 +69,13 @@ class OutlineWorker {
  public:
   /// The lines to draw. A line is `width` pixels wide, 0..100, half of it on either side of the
   /// change; it is drawn in steps of half a pixel. Around a small sphere it is narrower
-  /// (outline_share).
+  /// (outline_share). In fog, a pixel's lines are as faint as the nearest thing that they go
+  /// around.
   struct Lines {
     PixelRect frame;
     float width;
     Solver solver;
+    Fog fog{};
   };
 
   /// The side of the blocks for which it is fastest, in pixels.
@@ -93,6 +98,7 @@ class OutlineWorker {
   void mark_beside(int x, int y, const std::vector<int>& half_widths);
   void mark_below(int x, int y, const std::vector<int>& half_widths);
   void mark(int y, int first, int last);
+  void see_through_fog(std::size_t a, std::size_t b);
   void count_points(const PixelRect& block, Outline& outline) const;
   [[nodiscard]] bool differ(const Hit& a, const Hit& b) const;
   [[nodiscard]] double radius_of(const Hit& hit) const;
@@ -119,8 +125,12 @@ class OutlineWorker {
   PixelRect points_;       ///< those and the relevant ones around them
   std::vector<Hit> seen_;  ///< by `points_`; t in units of length
   std::vector<std::int32_t>
-      surfaces_;            ///< likewise: ids of SceneSearch::surfaces(), where any is cut
-  std::vector<int> steps_;  ///< of `marked_`: number of lines that begin less number that end
+      surfaces_;  ///< likewise: ids of SceneSearch::surfaces(), where any is cut
+  Fog fog_;
+  std::vector<float> veils_;  ///< likewise: shares of fog, if there is any
+  float seen_now_ = 1;        ///< of the line that is marked: less the share of fog before it
+  std::vector<float> clear_;  ///< by pixel of the block: the largest of these, if there is fog
+  std::vector<int> steps_;    ///< of `marked_`: number of lines that begin less number that end
   SceneSearch search_;
   SampleBuffer samples_;
   RayBuffer rays_;

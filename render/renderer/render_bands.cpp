@@ -41,8 +41,7 @@ Status Renderer::render_bands(const std::function<Status(const Image&)>& take) {
 }
 
 Status Renderer::run_bands(const Bands& bands, BandQueue& queue) {
-  const OutlineWorker::Lines lines{
-      {0, 0, options_.width, options_.height}, options_.outline, options_.solver};
+  const OutlineWorker::Lines lines = outline_lines();
   std::vector<std::unique_ptr<OutlineWorker>> outliners(scheduler_.workers());
   const auto render_block = [&](unsigned index, std::size_t block) {
     BandQueue::Band* const band = queue.begin(block);

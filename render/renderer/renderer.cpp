@@ -280,8 +280,7 @@ Status Renderer::work(const std::function<void(BlockTools&)>& task) {
 }
 
 Status Renderer::run_task(const std::function<void(BlockTools&)>& task) {
-  const OutlineWorker::Lines lines{
-      {0, 0, options_.width, options_.height}, options_.outline, options_.solver};
+  const OutlineWorker::Lines lines = outline_lines();
   std::vector<std::unique_ptr<BlockTools>> tools(scheduler_.workers());
   const auto body = [&](unsigned index, std::size_t) {
     BlockWorker& mine = worker(index);
@@ -311,8 +310,7 @@ Result<Outline> Renderer::render_outline() {
 }
 
 Status Renderer::find_lines(Outline& outline) {
-  const OutlineWorker::Lines lines{
-      {0, 0, options_.width, options_.height}, options_.outline, options_.solver};
+  const OutlineWorker::Lines lines = outline_lines();
   return run_extra<OutlineWorker>(
       BlockOrder(rect(), OutlineWorker::block_side, PixelOrder::tiles),
       [&] { return std::make_unique<OutlineWorker>(*setup_, lines); },
@@ -338,6 +336,14 @@ Status Renderer::run_extra(const BlockOrder& blocks, const Make& make, const Tas
   return status;
 }
 
+Fog Renderer::fog() const {
+  return options_.fog > 0 ? fog_of(options_, scene_->bounds, scene_->camera_view) : Fog{};
+}
+
+OutlineWorker::Lines Renderer::outline_lines() const {
+  return {{0, 0, options_.width, options_.height}, options_.outline, options_.solver, fog()};
+}
+
 IntegratorSettings Renderer::integrator_settings() const {
   IntegratorSettings settings;
   settings.solver = options_.solver;
@@ -347,7 +353,7 @@ IntegratorSettings Renderer::integrator_settings() const {
   settings.seed = options_.seed;
   settings.shadow_epsilon = options_.shadow_epsilon;
   settings.least_weight = options_.least_weight;
-  if (options_.fog > 0) settings.fog = fog_of(options_, scene_->bounds, scene_->camera_view);
+  settings.fog = fog();
   return settings;
 }
 

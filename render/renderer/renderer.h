@@ -145,6 +145,8 @@ class Renderer {
   Status run_task(const std::function<void(BlockTools&)>& task);
   Status find_aovs(AovChannels& channels);
   Status find_lines(Outline& outline);
+  [[nodiscard]] Fog fog() const;
+  [[nodiscard]] OutlineWorker::Lines outline_lines() const;
   template <class Worker, class Make, class Task>
   Status run_extra(const BlockOrder& blocks, const Make& make, const Task& task);
 

@@ -106,7 +106,7 @@ Result<LoadedScene> SceneLoader::choose_for_series() {
     const std::uint64_t spheres = find_shown(first.value());
     if (!needs_others(first.value())) {
       keep_colors(first.value());
-      choices_.box = bounds_of(first.value().scene);
+      choices_.box = bounds_without_outliers(first.value().scene);
       return first;
     }
     frames = surveyed_frames(whole_frames(), spheres, most_);

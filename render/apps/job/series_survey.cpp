@@ -47,7 +47,7 @@ void SeriesSurvey::add(int frame, const LoadedScene& loaded,
   }
   add_spheres(scene, *fitter_);
   add_near(scene);
-  add_bounds(bounds_of(scene));
+  add_bounds(bounds_without_outliers(scene));
   if (!floor) return;
   const double lowest = *lowest_along(floor->up, loaded);
   lowest_ = std::min(lowest_.value_or(lowest), lowest);

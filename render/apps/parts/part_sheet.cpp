@@ -114,7 +114,7 @@ PartSheet::PartSheet(const PixelRect& rect, const PartKinds& kinds)
 
 void PartSheet::set_lines(const PixelRect& block, const Outline& outline) {
   for (int y = block.y0; y < block.y1; ++y) {
-    for (int x = block.x0; x < block.x1; ++x) lines_->set(x, y, outline.points(x, y));
+    for (int x = block.x0; x < block.x1; ++x) lines_->set(x, y, outline.ink(x, y));
   }
 }
 
@@ -136,7 +136,7 @@ void PartSheet::set_channels(const PixelRect& block, const std::vector<ImageChan
 void PartSheet::append(const PixelRect& block, std::string& text) const {
   kinds_.measured ? append_pixels(block, measured_, text) : append_pixels(block, film_, text);
   for (int y = block.y0; lines_ && y < block.y1; ++y) {
-    for (int x = block.x0; x < block.x1; ++x) text += static_cast<char>(lines_->points(x, y));
+    for (int x = block.x0; x < block.x1; ++x) text += static_cast<char>(lines_->ink(x, y));
   }
   const auto width = static_cast<std::size_t>(block.width());
   for (const ImageChannel& channel : channels_) {
@@ -152,13 +152,12 @@ bool PartSheet::take(const PixelRect& block, std::string_view text) {
   const bool good =
       kinds_.measured ? take_pixels(block, measured_, text) : take_pixels(block, film_, text);
   if (!good) return false;
-  constexpr int most_points = outline_grid * outline_grid;
   for (int y = block.y0; lines_ && y < block.y1; ++y) {
     for (int x = block.x0; x < block.x1; ++x) {
-      unsigned char points = 0;
-      take_bytes(&points, 1, text);
-      if (points > most_points) return false;
-      lines_->set(x, y, points);
+      unsigned char ink = 0;
+      take_bytes(&ink, 1, text);
+      if (ink > Outline::most_ink) return false;
+      lines_->set(x, y, ink);
     }
   }
   const auto width = static_cast<std::size_t>(block.width());

@@ -111,15 +111,16 @@ class CutJudge {
     closer(end_ - begin_);
     for (const Sphere& sphere : scene.spheres) {
       const Vec3l center = vec_cast<long double>(sphere.center);
-      meet(chord_of(from_, h_, center, static_cast<long double>(sphere.radius)),
-           [&](const Vec3l& p) { return unit(p - center); });
+      const auto r = static_cast<long double>(sphere.radius);
+      meet(chord_of(from_, h_, center, r), r, [&](const Vec3l& p) { return p - center; });
     }
     for (const Plane& plane : scene.planes) meet(plane);
     for (const Capsule& capsule : scene.capsules) {
       const Vec3l a = vec_cast<long double>(capsule.a), u = vec_cast<long double>(capsule.b) - a;
-      meet(chord_of(from_, h_, capsule), [&](const Vec3l& p) {
-        return unit(p - (a + u * std::clamp(dot(p - a, u) / dot(u, u), 0.0L, 1.0L)));
-      });
+      meet(chord_of(from_, h_, capsule), static_cast<long double>(capsule.radius),
+           [&](const Vec3l& p) {
+             return p - (a + u * std::clamp(dot(p - a, u) / dot(u, u), 0.0L, 1.0L));
+           });
     }
   }
 
@@ -137,29 +138,36 @@ class CutJudge {
     if (rise > 0 && t < end_) end_ = t, last_ = n, left_ = true;
   }
 
-  void offer(long double t, const Vec3l& normal) {
-    if (t < nearest_.distance)
+  void offer(long double t, const Vec3l& normal, long double share = 0) {
+    if (t < nearest_.distance) {
       nearest_ = {id_, t, std::min(nearest_.doubt, nearest_.distance - t), normal};
-    else if (t > nearest_.distance)  // caps of one plane are equal
+      share_ = share;
+    } else if (t > nearest_.distance) {
       closer(t - nearest_.distance);
+    } else {  // caps of one plane are equal: the nearest centre's counts
+      closer(share - share_);
+      if (share < share_) nearest_.id = id_, share_ = share;
+    }
   }
 
-  template <class NormalAt>
-  void meet(const ChordL& chord, const NormalAt& normal_at) {
+  template <class OffAt>
+  void meet(const ChordL& chord, long double r, const OffAt& off_at) {
     if (!std::isnan(chord.enter) && begin_ < end_) {
       for (const long double t : {chord.enter, chord.leave}) closer(t - begin_), closer(t - end_);
       closer(chord.leave - chord.enter);
-      if (chord.enter < end_ && chord.leave > begin_) meet_part(chord, normal_at);
+      if (chord.enter < end_ && chord.leave > begin_) meet_part(chord, r, off_at);
     }
     ++id_;
   }
 
-  template <class NormalAt>
-  void meet_part(const ChordL& chord, const NormalAt& normal_at) {
-    if (chord.enter > begin_) return offer(chord.enter, normal_at(at(chord.enter)));
-    if (entered_) return offer(begin_, first_);
-    if (chord.leave < end_) return offer(chord.leave, normal_at(at(chord.leave)) * -1.0L);
-    if (left_) offer(end_, last_ * -1.0L);
+  /// `off_at`: the way to a point from the centre, or from the segment.
+  template <class OffAt>
+  void meet_part(const ChordL& chord, long double r, const OffAt& off_at) {
+    const auto share_at = [&](long double t) { return length(off_at(at(t))) / r; };
+    if (chord.enter > begin_) return offer(chord.enter, unit(off_at(at(chord.enter))));
+    if (entered_) return offer(begin_, first_, share_at(begin_));
+    if (chord.leave < end_) return offer(chord.leave, unit(off_at(at(chord.leave))) * -1.0L);
+    if (left_) offer(end_, last_ * -1.0L, share_at(end_));
   }
 
   void meet(const Plane& plane) {
@@ -173,6 +181,7 @@ class CutJudge {
   long double far_, begin_ = 0, end_;
   Vec3l first_, last_;  ///< normals of the planes at both ends
   bool entered_ = false, left_ = false;
+  long double share_ = 0;  ///< of the nearest, if it is a cap
   std::int32_t id_ = 0;
   Judged nearest_;
 };

@@ -59,30 +59,47 @@ class Definition {
       ++id;
     }
     Met nearest;
-    const auto offer = [&](double t, std::int32_t hit, std::int32_t surface) {
-      if (t < nearest.hit.t) nearest = {{t, hit}, surface};
+    double nearest_share = 0;
+    const auto offer = [&](double t, std::int32_t hit, std::int32_t surface, double share = 0) {
+      if (t > nearest.hit.t || (t == nearest.hit.t && !(share < nearest_share))) return;
+      nearest = {{t, hit}, surface};
+      nearest_share = share;
     };
-    const auto cut = [&](const reference::Chord& chord, std::int32_t one) {
+    const auto cut = [&](const reference::Chord& chord, const auto& primitive, std::int32_t one) {
+      const auto share_at = [&](double t) { return share_of(primitive, point_at(ray, t)); };
       if (!(chord.enter <= to) || !(from < chord.leave) || !(from < to)) return;
       if (chord.enter > from) return offer(chord.enter, one, one);
-      if (enters != no_primitive) return offer(from, one, enters);
+      if (enters != no_primitive) return offer(from, one, enters, share_at(from));
       if (chord.leave <= to) return offer(chord.leave, one, one);
-      if (leaves != no_primitive) offer(to, one, leaves);
+      if (leaves != no_primitive) offer(to, one, leaves, share_at(to));
     };
     id = 0;
     for (const Sphere& sphere : scene_.spheres)
-      cut(reference::find_chord(ray, sphere, false), id++);
+      cut(reference::find_chord(ray, sphere, false), sphere, id++);
     for (const Plane& plane : scene_.planes) {
       offer(reference::intersect(ray, plane, false), id, id);
       ++id;
     }
     id += static_cast<std::int32_t>(clips_.size());
     for (const Capsule& capsule : scene_.capsules)
-      cut(reference::find_chord(ray, capsule, false), id++);
+      cut(reference::find_chord(ray, capsule, false), capsule, id++);
     return nearest;
   }
 
  private:
+  static Vec3d point_at(const Ray& ray, double t) {
+    return ray.org + vec_cast<double>(ray.dir) * t;
+  }
+  static double share_of(const Sphere& sphere, const Vec3d& point) {
+    const Vec3d off = point - vec_cast<double>(sphere.center);
+    return dot(off, off) / (double{sphere.radius} * double{sphere.radius});
+  }
+  static double share_of(const Capsule& capsule, const Vec3d& point) {
+    const Vec3d a = vec_cast<double>(capsule.a), u = vec_cast<double>(capsule.b) - a;
+    const double along = std::clamp(dot(point - a, u) / dot(u, u), 0.0, 1.0);
+    return share_of(Sphere{{}, capsule.radius}, point - (a + u * along));
+  }
+
   const Scene& scene_;
   std::span<const Plane> clips_;
   std::int32_t first_clip_;
@@ -151,17 +168,27 @@ TEST(Clips, ThinSliceBetweenTwoPlanes) {
   EXPECT_EQ(meet(scene, {{5, 0, 0.2}, {-1, 0, 0}}).hit.id, 0);
 }
 
-/// The lower id has the cap, even if the higher one is entered later.
-TEST(Clips, CapBelongsToTheLowerId) {
+/// At equal shares of the radius it is that of the lower id.
+TEST(Clips, CapBelongsToTheNearestCentre) {
   Scene scene = empty_scene(8, 8);
   add_material(scene, Matte{});
   scene.spheres = {{{0, 0, 0}, 1, 0}, {{0.5F, 0, 0}, 1, 0}};
   scene.clips = {{{0, 0, 0}, {0, 0, 1}}};
-  EXPECT_EQ(meet(scene, {{0.2, 0, 5}, {0, 0, -1}}).hit.id, 0);
-  EXPECT_EQ(meet(scene, {{1.2, 0, 5}, {0, 0, -1}}).hit.id, 1);
+  const auto at = [&](double x) { return meet(scene, {{x, 0, 5}, {0, 0, -1}}).hit.id; };
+  EXPECT_EQ(at(-0.7), 0);
+  EXPECT_EQ(at(0.2), 0);
+  EXPECT_EQ(at(0.25), 0);
+  EXPECT_EQ(at(0.3), 1);
+  EXPECT_EQ(at(1.2), 1);
   std::swap(scene.spheres[0], scene.spheres[1]);
-  EXPECT_EQ(meet(scene, {{0.2, 0, 5}, {0, 0, -1}}).hit.id, 0);
-  EXPECT_EQ(meet(scene, {{-0.7, 0, 5}, {0, 0, -1}}).hit.id, 1);
+  EXPECT_EQ(at(0.2), 1);
+  EXPECT_EQ(at(0.25), 0);
+  EXPECT_EQ(at(0.3), 0);
+  scene.spheres[0].radius = 2;  // it reaches farther
+  EXPECT_EQ(at(0.16), 1);
+  EXPECT_EQ(at(0.17), 0);
+  scene.capsules = {{{0.1F, -1, 0}, {0.1F, 1, 0}, 0.5F, 0}};
+  EXPECT_EQ(at(0.1), 3);  // behind two spheres and the plane that cuts
 }
 
 }  // namespace

@@ -128,8 +128,7 @@ TEST(BarePixels, RoundedDirectionsCount) {
     scene.spheres = {{middle, 0.02F, MaterialRef(0)}};
     scene.camera = pinhole({0, 0, 0}, middle, 5e-6F);
     const PreparedScene prepared = prepare(scene, width, height).value();
-    const BarePixels bare(prepared, {0, 0, width, height},
-                          serial_for);
+    const BarePixels bare(prepared, {0, 0, width, height}, serial_for);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         const Ray ray = primary_ray(prepared.camera_view, x + 0.5, y + 0.5);
@@ -190,8 +189,7 @@ TEST(BarePixels, OtherCamerasHaveNone) {
         Camera(PinholeCamera{{eye, {0, 0, 0}, {0, 1, 0}}, 45, FovAxis::x})}) {
     scene.camera = camera;
     const PreparedScene prepared = prepare(scene, width, height).value();
-    const BarePixels bare(prepared, {0, 0, width, height},
-                          serial_for);
+    const BarePixels bare(prepared, {0, 0, width, height}, serial_for);
     EXPECT_EQ(bare.is_bare(5, 5), std::holds_alternative<PinholeCamera>(camera));
     EXPECT_FALSE(bare.is_bare(-1, 5));
     EXPECT_FALSE(bare.is_bare(5, height));

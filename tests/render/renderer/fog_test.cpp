@@ -134,6 +134,21 @@ TEST_P(FogTest, HasTheColoursBehind) {
   EXPECT_EQ(differing_pixels(all_fog, render(scene_)), 0);
 }
 
+TEST_P(FogTest, FarSpheresDoNotWidenIt) {
+  scene_.capsules.clear();
+  scene_.spheres.clear();
+  for (int i = 0; i < 400; ++i) {
+    const auto x = static_cast<float>(i % 20), z = static_cast<float>(i / 20);
+    scene_.spheres.push_back({{0.2F * x - 2, 0, -0.3F * z}, 0.09F, 0});
+  }
+  scene_.image.fog = 0.8f;
+  const Image all = render(scene_);
+  scene_.spheres.push_back({{0, 9000, -9000}, 0.09F, 0});
+  EXPECT_EQ(differing_pixels(all, render(scene_)), 0);
+  scene_.image.fog = 0;
+  EXPECT_GT(differing_pixels(all, render(scene_)), 100);
+}
+
 TEST_P(FogTest, OfOneSphereStartsAtItsFront) {
   scene_.capsules.clear();
   scene_.spheres = {{{0, 0, 0}, 1, 0}};

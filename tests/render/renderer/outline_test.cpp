@@ -215,8 +215,30 @@ std::vector<int> line_points(const Scene& scene) {
   const auto lines = renderer.value().render_outline();
   std::vector<int> points;
   for (int y = 0; y < scene.image.height; ++y)
-    for (int x = 0; x < scene.image.width; ++x) points.push_back(lines.value().points(x, y));
+    for (int x = 0; x < scene.image.width; ++x) points.push_back(lines.value().ink(x, y));
   return points;
+}
+
+TEST(Outline, FadesInFog) {
+  Scene scene = row_of_balls();
+  scene.spheres.back().center.y = 2;
+  const std::vector<int> clear = line_points(scene);
+  scene.image.fog = 0.5f;
+  scene.image.fog_from = 0;
+  scene.image.fog_to = 0.001f;  // all are behind it
+  const std::vector<int> faint = line_points(scene);
+  for (std::size_t i = 0; i < clear.size(); ++i) ASSERT_EQ(faint[i], (clear[i] + 1) / 2);
+  scene.image.fog = 1;
+  EXPECT_EQ(line_points(scene), std::vector<int>(clear.size(), 0));
+  // What is behind the front balls fades, and these do not.
+  const double eye = length(vec_cast<double>(std::get<PinholeCamera>(*scene.camera).pose.eye));
+  scene.image.fog_from = static_cast<float>(eye + 0.6);
+  scene.image.fog_to = static_cast<float>(eye + 0.7);
+  const std::vector<int> some = line_points(scene);
+  EXPECT_NE(some, clear);
+  scene.spheres.pop_back();
+  scene.image.fog = 0;
+  EXPECT_EQ(line_points(scene), some);
 }
 
 TEST(Outline, GoesAroundGroups) {
