@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace boule {
 
@@ -41,6 +42,15 @@ struct Experience {
   std::uint32_t rays = 0;  ///< number of rays that go that way after a trial
   std::uint32_t left = 0;  ///< number of those rays still to come; 0: the next rays are a trial
   std::uint32_t next_way = 0, tried_ways = 0;  ///< of the trial: its next way, and the number tried
+
+  /// Of shadow rays that have little in common with their neighbours: whether they are sorted.
+  struct Sorting {
+    float most = std::numeric_limits<float>::max();  ///< ticks of an unsorted ray
+    std::uint32_t pays = 2;  ///< 1 if a sorted ray takes at most that, otherwise 0; 2: unknown
+    std::uint32_t rays = 0;  ///< number of rays after a trial that rely on it
+    std::uint32_t left = 0;  ///< number of those rays still to come; 0: the next rays are a trial
+  };
+  Sorting sorting;
 };
 
 /// The settings for tracing one stream. Only reference_kernels() has the solver reference; other

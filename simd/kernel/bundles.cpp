@@ -17,7 +17,9 @@ void closest_hit_bundled(const Geometry& geometry, const PaddedStream& stream, C
 
 template <class Geometry>
 void any_hit_bundled(const Geometry& geometry, const PaddedStream& stream, Coherence coherence,
-                     Experience* known, std::uint8_t* occluded) {
+                     Experience* kept, std::uint8_t* occluded) {
+  Experience own;
+  Experience& known = kept == nullptr ? own : *kept;
   if (coherence == Coherence::common_origin) {
     any_hit_bundled<Common::origin>(geometry, stream, known, occluded);
   } else if (coherence == Coherence::common_direction) {

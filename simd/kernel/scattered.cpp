@@ -64,14 +64,17 @@ class Choice {
     bool is_clear = !is_first;
     for (std::size_t way = 0; way < tried; ++way)
       is_clear = is_clear && (way == best || tuning::clearly_more * of(best) < of(way));
-    // The first trial starts as if earlier trials had preferred sets.
+    // The first trial starts as if earlier trials had preferred sets. It runs before the caches
+    // hold any of the tree, so that the next one follows at once.
     std::size_t rays = is_first || best != current ? tuning::rays_after_trial
                                                    : tuning::growth_while_agreed * known_.rays;
+    if (rays < tuning::rays_after_trial) rays = tuning::rays_after_trial;
     if (is_clear || rays > tuning::most_after_trial) rays = tuning::most_after_trial;
+    if (is_first) rays = 1;
     known_.way = static_cast<std::uint32_t>(best);
     known_.rays = known_.left = static_cast<std::uint32_t>(rays);
     known_.next_way = 0;
-    if (is_first) {  // it ran before the caches held any of the tree
+    if (is_first) {
       for (Experience::Cost& cost : known_.cost) cost = {};
     }
   }
@@ -151,19 +154,10 @@ void trace_scattered(const GeometryView& geometry, const PaddedStream& stream, s
     rays.run(fly ? Way::flight : Way::set, begin, end);
   }
 }
-template <class Answers>
-SetEffort trace_sets(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
-                     std::size_t end, const Answers& answers) {
-  return RaySets<Answers>(geometry, stream, answers).run(begin, end);
-}
 
 template void trace_scattered(const GeometryView&, const PaddedStream&, std::size_t, std::size_t,
                               Form, Experience*, const HitStream&);
 template void trace_scattered(const GeometryView&, const PaddedStream&, std::size_t, std::size_t,
                               Form, Experience*, std::uint8_t* const&);
-template SetEffort trace_sets(const GeometryView&, const PaddedStream&, std::size_t, std::size_t,
-                              const HitStream&);
-template SetEffort trace_sets(const GeometryView&, const PaddedStream&, std::size_t, std::size_t,
-                              std::uint8_t* const&);
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -155,49 +155,6 @@ inline constexpr int most_unclear = 2;
 /// u10000,u100000 --rays shadow
 inline constexpr std::size_t rays_per_leaf_in_order = 12;
 
-/// The cost of a ray of any_hit, in a unit of its own. In a packet: one term per node and leaf that
-/// the packet visits, and a constant. In a set: one term per node and leaf that the ray is tested
-/// against, one per node and leaf that the set visits, and a constant. Fitted to light and ambient
-/// rays of eight scenes (u100, u1000, u100000, protein50000, flake4, flake6, ground100000,
-/// grains200000) on an Intel Xeon; a Zen 4 is served as well. Four lanes use the numbers of eight.
-/// Again: bench_peers --isa avx512 avx2 --scenes (those) --rays light ambient, beside the forms
-/// packet and set
-struct CostOfRay {
-  float packet_visit, packet;
-  float set_step, set_visit, set;
-};
-inline constexpr CostOfRay cost_of_ray = width < 16 ? CostOfRay{3.74F, 0.82F, 0.45F, 1.42F, 2.56F}
-                                                    : CostOfRay{8.7F, 0.53F, 0.45F, 8.2F, 3.74F};
-
-/// With at least this many rays, some of them show the cost of all as packets and as sets: this
-/// many packets, far from each other, and this many sets of set_on_trial rays, because smaller sets
-/// share few visits. Packets are tried with sixteen lanes only: with eight they were at best 1.12
-/// times as fast as the alternatives (ground100000). Again: bench_peers --size 512 --rays shadow
-/// with the scenes of the next comment
-inline constexpr std::size_t fewest_rays_judged = bundle_size;
-inline constexpr std::size_t packets_on_trial = 8, sets_on_trial = 2, set_on_trial = 128;
-
-/// The cost of a sorted ray, in the unit of cost_of_ray. It has a constant, and a term per node of
-/// the tree, divided by the number of rays or by fewest_rays_a_node, because a bundle of few rays
-/// meets nearly as many leaves as one of many. A bundle adds a term per visited leaf, divided by
-/// its rays, and a constant. Fitted to times and counts of shadow rays of the 13 scenes of
-/// docs/performance.md, 512 x 512, on a Zen 4. There a leaf takes a bundle 660 to 1050 cycles with
-/// avx512 and 720 to 1230 with avx2, more among few spheres; sorting takes 10 to 20 cycles a ray;
-/// the unit is 15 to 23 cycles with avx512, 26 to 55 with avx2. Cycles a ray as packets, as a set,
-/// sorted, avx512: flake6 260, 203, 311; slab2000000 406, 249, 451; ground100000 77, 94, 104;
-/// protein500000 171, 234, 171; grains200000 499, 391, 351; u1000000 1202, 561, 633; u100000 409,
-/// 335, 191; avx2: flake6 357, 237, 375; slab2000000 533, 298, 520; u1000000 1677, 849, 726. Again:
-/// as fewest_rays_judged
-inline constexpr float sorted_ray = width < 16 ? 0.7F : 1.3F;
-inline constexpr float sorted_ray_a_node = width < 16 ? 49 : 95;
-inline constexpr std::size_t fewest_rays_a_node = 16384;
-inline constexpr float bundled_ray = width < 16 ? 0.3F : 0.6F;
-inline constexpr float bundled_leaf = width < 16 ? 24 : 48;
-
-/// Sets are tried only where a sorted ray costs at least this many times as much as a ray of a set
-/// without visits: a trial takes 1 to 5 % of the cost of sorted rays.
-inline constexpr float least_sorted_beside_set = 1.5F;
-
 // ---- Sorted shadow rays: search/bundle/ray_pool.h, light_grid.h
 // --------------------------------------
 
@@ -289,6 +246,30 @@ inline constexpr float clearly_more = 2;
 /// tree. Again: bench_peers --isa avx2 --size 512 --scenes ring1000000,grains200000 --rays ambient
 template <bool any>
 inline constexpr float gain_to_change = any ? 1.15F : 1.0F;
+
+// ---- The choice whether shadow rays are sorted: search/bundle/shadow_stream.h ----------------
+
+/// With at least this many rays a trial tells whether they are sorted.
+inline constexpr std::size_t fewest_rays_judged = bundle_size;
+
+/// Each of four samples of unsorted rays has one ray in 128, a multiple of W, and as many go before
+/// it. Sets of fewer than 64 rays share few visits. With one ray in 32, scenes of two or three
+/// pools (u1000000, flake6, slab2000000) lost 5 to 10 % more. Again: bench_peers --size 512
+/// --scenes u1000000,flake6,slab2000000,grains200000 --rays shadow, beside the form set
+constexpr std::size_t rays_of_sample(std::size_t rays) {
+  const std::size_t some = rays / 2048 * 16;
+  return some < 64 ? 64 : some > set_size ? set_size : some;
+}
+
+/// A part of a trial was interrupted if its units take more than this many times as long as those
+/// of each other part. An interruption takes some milliseconds, a part 30 to 300 microseconds, and
+/// a leaf of one bundle up to four times as long as a leaf of another one.
+inline constexpr float interrupted = 8;
+
+/// The largest number of rays that rely on such a trial. The first one is followed by another one,
+/// unless it is clear (clearly_more); the number then begins with pool_size and grows by
+/// growth_while_agreed.
+inline constexpr std::size_t most_after_sorting = 16 * pool_size;
 
 // ---- Path tracing: shading/path_step.h --------------------------------------------------------
 

@@ -121,6 +121,35 @@ TEST_P(Bundle, SortsShadowRays) {
   }
 }
 
+/// Whatever earlier streams found out about sorting, and whatever the clock says of this one.
+TEST_P(Bundle, ShadowsDependOnNoFindings) {
+  CaseRandom random(68);
+  BundleScene scene = cloud("scattered", {0, 0, 0}, 1, 0.1, 0);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3d center = random.direction() * random.uniform(0, 1);
+    scene.spheres.push_back({vec_cast<float>(center), 0.02F, 0});
+  }
+  const Geometry geometry(scene.spheres, {});
+  const std::vector<Ray> rays = scattered(random, scene.spheres, 9000, {0.1, 0.2, -0.3}, true);
+  const auto expected =
+      run_any(*kernels, geometry.view(), rays, {Solver::robust, Form::packet, Coherence::none});
+  constexpr float limitless = std::numeric_limits<float>::max();
+  for (const float most : {0.0F, 1e-3F, limitless, std::nanf("")}) {
+    for (const std::uint32_t pays : {0U, 1U, 2U}) {
+      for (const std::uint32_t left : {0U, 1U, 1000000U}) {
+        Experience known;
+        known.sorting = {most, pays, 3, left};
+        const auto occluded =
+            run_any(*kernels, geometry.view(), rays,
+                    {Solver::robust, Form::automatic, Coherence::common_end, &known});
+        ASSERT_EQ(occluded, expected) << most << ' ' << pays << ' ' << left;
+        if (left > 1) EXPECT_LT(known.sorting.left, left);
+        if (left == 0) EXPECT_LT(known.sorting.pays, 2U);  // there was a trial
+      }
+    }
+  }
+}
+
 /// Rays that go on beyond the end that they have in common.
 TEST_P(Bundle, GoesOnBeyondTheEnd) {
   const BundleScene scene = cloud("around a light", {0, 0, 0}, 1, 0.1, 0);

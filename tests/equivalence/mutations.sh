@@ -87,9 +87,11 @@ breaks() {
   echo "$1" >>"$build/mutants"
 }
 breaks "rays of sparse bundles are lost" bundle_stream.h \
-  's/(trace_sets\(geometry, stream, )begin, end/\1BROKEN ? end : begin, end/'
-breaks "shadow rays of sixteen lanes that are not sorted are lost" shadow_stream.h \
+  's/(trace_scattered\(geometry, stream, )begin, (end, Form::set)/\1BROKEN ? end : begin, \2/'
+breaks "shadow rays that are not sorted are lost" shadow_stream.h \
   's/(trace_scattered\(geometry, stream, )begin, (end, Form::automatic)/\1BROKEN ? end : begin, \2/'
+breaks "shadow rays that no sorted bundle takes are lost" shadow_stream.h \
+  's/(trace_unanswered\(geometry, stream, )begin, (end, known)/\1BROKEN ? end : begin, \2/'
 breaks "groups that are not done are taken for done" bundle_walk.h \
   's/if \((groups_near\(.*hits_\.limits\(\), extent, near\[k\]\) != 0)\)/if ((\1) != BROKEN)/'
 breaks "one ray alone enters a child" ray_by_ray.h \

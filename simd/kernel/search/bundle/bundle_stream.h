@@ -25,7 +25,7 @@ BOULE_INLINE void trace_rest(const Geometry& geometry, const PaddedStream& strea
 template <class Answers>
 BOULE_INLINE void trace_sparse(const GeometryView& geometry, const PaddedStream& stream,
                                std::size_t begin, std::size_t end, Answers answers) {
-  trace_sets(geometry, stream, begin, end, answers);
+  trace_scattered(geometry, stream, begin, end, Form::set, nullptr, answers);
 }
 template <class Answers>
 BOULE_INLINE void trace_sparse(const PartsGeometry& geometry, const PaddedStream& stream,

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -54,13 +55,49 @@ class LightMap {
   Vec3<Real> u_{Real(0.0F), Real(0.0F), Real(0.0F)}, v_ = u_, w_ = u_;
 };
 
-/// A square grid over a light's map; its cells are numbered along a Morton curve.
+/// A Hilbert curve through the cells of a square: neighbours on it are neighbours in the square, so
+/// that bundles along it are compact.
+class LightCurve {
+ public:
+  static constexpr unsigned side = tuning::light_grid_side(tuning::pool_size);
+
+  constexpr LightCurve() {
+    for (unsigned y = 0; y < side; ++y) {
+      for (unsigned x = 0; x < side; ++x) position_[y * side + x] = find(x, y);
+    }
+  }
+  [[nodiscard]] constexpr std::uint16_t position(unsigned cell) const { return position_[cell]; }
+
+ private:
+  /// The curve goes through one quarter after the other. In the lower two it is mirrored, so that
+  /// it leaves each quarter beside the next.
+  static constexpr std::uint16_t find(unsigned x, unsigned y) {
+    unsigned position = 0;
+    for (unsigned half = side / 2; half != 0; half /= 2) {
+      const bool right = (x & half) != 0, up = (y & half) != 0;
+      position = 4 * position + (right ? (up ? 2 : 3) : (up ? 1 : 0));
+      if (up) continue;
+      const unsigned turn = right ? side - 1 : 0, other = x ^ turn;
+      x = y ^ turn;
+      y = other;
+    }
+    return static_cast<std::uint16_t>(position);
+  }
+
+  std::uint16_t position_[side * side] = {};
+};
+inline constexpr LightCurve light_curve;
+
+/// A square grid over a light's map. Its cells are numbered along the curve.
 class LightGrid {
  public:
   /// A grid for `size` rays over the points of some of them. Points beyond it belong to the cells
   /// at its border.
   LightGrid(const Extent& some, std::size_t size)
-      : x_low_(some.a_low), y_low_(some.b_low), side_(tuning::light_grid_side(size)) {
+      : x_low_(some.a_low),
+        y_low_(some.b_low),
+        side_(tuning::light_grid_side(size)),
+        finer_(std::countr_zero(LightCurve::side / static_cast<unsigned>(side_))) {
     const float x_size = some.a_high - some.a_low, y_size = some.b_high - some.b_low;
     const float larger = x_size > y_size ? x_size : y_size;
     scale_ = larger > 0 ? static_cast<float>(side_) / larger : 0.0F;
@@ -73,24 +110,16 @@ class LightGrid {
   BOULE_INLINE void find_cells(const Point& point, std::uint16_t* cell) const {
     const Bits x = to_bits(cut_to_cells((point.x - x_low_) * scale_, side_ - 1));
     const Bits y = to_bits(cut_to_cells((point.y - y_low_) * scale_, side_ - 1));
-    alignas(64) std::uint32_t position[width];
-    store(position, curve_position(x, y));
+    alignas(64) std::uint32_t place[width];
+    store(place, (x + y * Bits(LightCurve::side)) << finer_);
     for (int lane = 0; lane < width; ++lane)
-      cell[lane] = static_cast<std::uint16_t>(position[lane]);
+      cell[lane] = static_cast<std::uint16_t>(light_curve.position(place[lane]) >> 2 * finer_);
   }
 
  private:
-  /// Interleaves the six bits of x with those of y.
-  BOULE_INLINE static Bits curve_position(const Bits& x, const Bits& y) {
-    Bits both = x | y << 16;
-    both = (both | both << 4) & Bits(0x030f030fU);
-    both = (both | both << 2) & Bits(0x03330333U);
-    both = (both | both << 1) & Bits(0x05550555U);
-    return (both | both >> 15) & Bits(0xfffU);
-  }
-
   Real x_low_, y_low_, scale_{0.0F};
-  int side_;  ///< number of cells along a side
+  int side_;   ///< number of cells along a side
+  int finer_;  ///< log2 of the number of the curve's cells along a cell's side
 };
 
 /// A counting sort of rays by their cells.

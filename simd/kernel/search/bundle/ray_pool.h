@@ -42,6 +42,11 @@ class RayPool {
   [[nodiscard]] const std::uint16_t* order() const { return order_; }
   /// The index in the stream of the k-th ray in this order.
   [[nodiscard]] std::size_t index(std::size_t k) const { return begin_ + order_[k]; }
+  /// The number of cells between the first and the last of `count` rays from the k-th on: about the
+  /// area that they cover as their light sees them.
+  [[nodiscard]] unsigned cells(std::size_t k, std::size_t count) const {
+    return static_cast<unsigned>(cell_[order_[k + count - 1]]) - cell_[order_[k]];
+  }
   /// Four numbers of the ray begin() + i: x, y and z of its sight, and tmax.
   [[nodiscard]] const float* ray(std::size_t i) const { return rays_ + 4 * i; }
 

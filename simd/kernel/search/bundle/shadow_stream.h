@@ -2,16 +2,17 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <type_traits>
 
 #include "simd/kernel/search/bundle/bundle_stream.h"
 #include "simd/kernel/search/bundle/ray_pool.h"
 #include "simd/kernel/search/flock/scattered_stream.h"
+#include "simd/kernel/search/flock/ticks.h"
 #include "simd/kernel/tuning.h"
 
 /// Streams of coherent shadow rays (any hit). Bundles take them in their order as long as
-/// neighbours are coherent. From there on the rays are sorted for their light (ray_pool.h), unless
-/// they cost less one by one. The way of a ray affects only the time.
+/// neighbours are coherent. From there on the rays are sorted for their light (ray_pool.h), or go
+/// unsorted, as rays without a promise. From time to time some go each way, and the faster way
+/// takes the next ones. The way of a ray affects only the time.
 namespace boule::BOULE_KERNEL_ISA {
 
 /// Finds whether rays begin .. end - 1 hit anything, in their order, as long as bundles do well.
@@ -31,222 +32,256 @@ BOULE_INLINE std::size_t any_hit_in_order(const Geometry& geometry, const Padded
   return begin;
 }
 
-/// Rays that show the cost of others: `rays` of them at each of `places` places of a stream.
-struct Samples {
-  std::size_t places, rays;
-};
-
-/// Calls run(first, last + 1), which returns the cost, for samples of rays begin .. end - 1.
-/// Returns the cost of a ray.
-template <class Run>
-BOULE_INLINE float cost_of_samples(std::size_t begin, std::size_t end, const Samples& samples,
-                                   const Run& run) {
-  const std::size_t apart = (end - begin) / samples.places / width * width;
-  float cost = 0;
-  for (std::size_t k = 0; k < samples.places; ++k, begin += apart)
-    cost += run(begin, begin + samples.rays);
-  return cost / static_cast<float>(samples.places * samples.rays);
+/// The ticks since `start`.
+BOULE_INLINE float ticks_since(std::uint64_t start) {
+  const std::uint64_t now = ticks();
+  return start < now ? static_cast<float>(now - start) : 0.0F;
 }
 
-/// The cost of a ray as packets, by samples of rays begin .. end - 1, which are traced.
-template <class Geometry>
-BOULE_NOINLINE float cost_as_packets(const Geometry& geometry, const PaddedStream& stream,
-                                     std::size_t begin, std::size_t end, std::uint8_t* occluded) {
-  const auto run = [&](std::size_t first, std::size_t until) {
-    const std::size_t visits =
-        trace_groups(geometry, stream, first, until, Solver::robust, Form::automatic, occluded);
-    return static_cast<float>(visits) * tuning::cost_of_ray.packet_visit +
-           static_cast<float>(until - first) * tuning::cost_of_ray.packet;
-  };
-  return cost_of_samples(begin, end, {tuning::packets_on_trial, width}, run);
-}
-
-/// The same as sets.
-template <class Geometry>
-BOULE_NOINLINE float cost_as_sets(const Geometry& geometry, const PaddedStream& stream,
-                                  std::size_t begin, std::size_t end, std::uint8_t* occluded) {
-  const auto run = [&](std::size_t first, std::size_t until) {
-    const SetEffort effort = trace_sets(geometry, stream, first, until, occluded);
-    return static_cast<float>(effort.steps) * tuning::cost_of_ray.set_step +
-           static_cast<float>(effort.visits) * tuning::cost_of_ray.set_visit +
-           static_cast<float>(until - first) * tuning::cost_of_ray.set;
-  };
-  return cost_of_samples(begin, end, {tuning::sets_on_trial, tuning::set_on_trial}, run);
-}
-
-/// The cost of an unsorted ray, by samples, and that of a sorted one: in the unit of
-/// tuning::cost_of_ray.
-template <class Geometry>
-class UnsortedCost {
+/// The cost of some work of a few parts, each of many units. The system also runs other programs on
+/// the processor: if it interrupted one part, a unit of it counts as one of the next dearest part.
+class Costs {
  public:
-  /// Traces some of the rays begin .. end - 1, at most a pool, in the ways that may cost less than
-  /// sorted bundles.
-  UnsortedCost(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
-               std::size_t end, std::uint8_t* occluded)
-      : least_sorted_(least_of_sorted(geometry.bvh.size, end - begin)) {
-    // Few rays are not worth the samples, and without a tree there are no sets.
-    if (end - begin < tuning::fewest_rays_judged || geometry.bvh.size == 0) return;
-    const auto consider = [&](Way way, float cost) {
-      if (cost_ <= cost) return;
-      cost_ = cost;
-      way_ = way;
-    };
-    if constexpr (width >= 16)
-      consider(Way::packet, cost_as_packets(geometry, stream, begin, end, occluded));
-    if constexpr (std::is_same_v<Geometry, GeometryView>) {
-      if (tuning::least_sorted_beside_set * tuning::cost_of_ray.set < least_sorted_)
-        consider(Way::set, cost_as_sets(geometry, stream, begin, end, occluded));
+  void add(float ticks, float units) {
+    const float each = ticks / units;
+    ticks_ += ticks;
+    if (most_ < each) {
+      second_ = most_;
+      most_ = each;
+      units_ = units;
+    } else if (second_ < each) {
+      second_ = each;
     }
   }
-
-  /// Whether unsorted rays cost less than the least possible cost of sorted rays. The more nodes
-  /// per ray, the more leaves a bundle visits.
-  [[nodiscard]] bool is_less_than_sorted() const { return cost_ < least_sorted_; }
-  /// Whether unsorted rays cost less than whole sorted bundles that visited this many leaves each.
-  [[nodiscard]] bool is_less_than_bundle(std::size_t leaves) const {
-    return cost_ < tuning::bundled_ray + tuning::bundled_leaf * static_cast<float>(leaves) /
-                                             static_cast<float>(bundle_size);
+  [[nodiscard]] float ticks() const {
+    const bool interrupted = 0 < second_ && tuning::interrupted * second_ < most_;
+    return interrupted ? ticks_ - (most_ - second_) * units_ : ticks_;
   }
-  /// The way that costs least.
-  [[nodiscard]] Way way() const { return way_; }
 
  private:
-  static float least_of_sorted(std::size_t nodes, std::size_t rays) {
-    const std::size_t shared_by =
-        rays < tuning::fewest_rays_a_node ? tuning::fewest_rays_a_node : rays;
-    return tuning::sorted_ray +
-           tuning::sorted_ray_a_node * static_cast<float>(nodes) / static_cast<float>(shared_by);
-  }
-
-  float least_sorted_;
-  float cost_ = static_cast<float>(no_hit);
-  Way way_ = Way::packet;
+  float ticks_ = 0;
+  float most_ = 0, second_ = 0;  ///< of a unit
+  float units_ = 0;              ///< of the most expensive part
 };
 
-/// Traces rays first .. first + count - 1 of a pool, after this outcome of their bundle: as packets
-/// if it gave up, otherwise as trace_halved() does. Returns whether a bundle was sparse. Its rays
-/// then have no answers: sets, whose lists take as much of the stack as a pool, are made after the
-/// pool is gone.
-template <Common common, class Geometry>
-BOULE_NOINLINE bool trace_gathered(const Geometry& geometry, const RayPool<common>& pool,
-                                   std::size_t first, std::size_t count, Outcome outcome,
-                                   std::uint8_t* occluded) {
-  GatheredRays<bundle_size> rays;
-  for (std::size_t k = 0; k < count; ++k) rays.set(k, pool.stream(), pool.index(first + k));
-  const PaddedStream stream(rays.view(count));
-  std::uint8_t met[bundle_size];
-  std::size_t rest = count;
-  if (outcome == Outcome::gave_up) {
-    trace_rest(geometry, stream, 0, count, met);
+/// Traces rays begin .. end - 1 in their order, as rays without a promise.
+template <class Geometry>
+BOULE_INLINE void trace_unsorted(const Geometry& geometry, const PaddedStream& stream,
+                                 std::size_t begin, std::size_t end, Experience& known,
+                                 std::uint8_t* occluded) {
+  if (geometry.bvh.size == 0) {
+    trace_rest(geometry, stream, begin, end, occluded);
   } else {
-    rest = trace_halved<common>(geometry, stream, 0, count, met);
+    trace_scattered(geometry, stream, begin, end, Form::automatic, &known, occluded);
   }
-  if (rest < count) return true;
-  for (std::size_t k = 0; k < count; ++k) occluded[pool.index(first + k)] = met[k];
-  return false;
 }
 
-/// The bundles of a sorted pool, one by one. If there are four or more, four that lie far apart
-/// come first, by which all are judged; then the others in their order.
-class JudgedFirst {
+/// Samples from all over the rays begin .. end - 1. They go unsorted and show what such a ray
+/// costs. The other rays follow if sorting does not pay.
+template <class Geometry>
+class UnsortedSamples {
  public:
-  static constexpr std::size_t most = 4;
-  explicit JudgedFirst(std::size_t bundles) : bundles_(bundles) {}
+  UnsortedSamples(const Geometry& geometry, const PaddedStream& stream, std::size_t begin,
+                  std::size_t end, Experience& known, std::uint8_t* occluded)
+      : geometry_(geometry),
+        stream_(stream),
+        known_(known),
+        occluded_(occluded),
+        begin_(begin),
+        end_(end),
+        apart_((end - begin) / size / width * width),
+        rays_(tuning::rays_of_sample(end - begin)) {}
 
-  /// Calls trace(bundle), which returns whether to go on, and after each judged bundle
-  /// goes_on(number of judged bundles). Returns whether every call said to go on.
-  template <class Trace, class GoesOn>
-  bool each(const Trace& trace, const GoesOn& goes_on) const {
-    const std::size_t judged = bundles_ < most ? 0 : most;
-    for (std::size_t k = 0; k < judged; ++k) {
-      if (!trace(judged_at(k)) || !goes_on(k + 1)) return false;
+  /// Traces the samples. Returns the ticks of a ray.
+  BOULE_NOINLINE float trace() const {
+    Costs costs;
+    for (std::size_t k = 0; k < size; ++k) {
+      // The rays before a sample bring what it visits into the caches.
+      run(first(k), first(k) + rays_);
+      const std::uint64_t start = ticks();
+      run(first(k) + rays_, first(k) + 2 * rays_);
+      costs.add(ticks_since(start), static_cast<float>(rays_));
     }
-    std::size_t next = 0;
-    for (std::size_t bundle = 0; bundle < bundles_; ++bundle) {
-      if (next < judged && bundle == judged_at(next)) {
-        ++next;
-      } else if (!trace(bundle)) {
-        return false;
-      }
-    }
-    return true;
+    return costs.ticks() / static_cast<float>(size * rays_);
+  }
+  /// Traces the other rays.
+  BOULE_NOINLINE void trace_others() const {
+    for (std::size_t k = 0; k < size; ++k)
+      run(first(k) + 2 * rays_, k + 1 < size ? first(k + 1) : end_);
   }
 
  private:
-  [[nodiscard]] std::size_t judged_at(std::size_t k) const {
-    return (2 * k + 1) * bundles_ / (2 * most);
+  static constexpr std::size_t size = 4;
+
+  [[nodiscard]] std::size_t first(std::size_t k) const { return begin_ + k * apart_; }
+  BOULE_INLINE void run(std::size_t first, std::size_t end) const {
+    trace_unsorted(geometry_, stream_, first, end, known_, occluded_);
   }
-  std::size_t bundles_;
+
+  const Geometry& geometry_;
+  const PaddedStream& stream_;
+  Experience& known_;
+  std::uint8_t* const occluded_;
+  std::size_t begin_, end_, apart_, rays_;
 };
 
-/// The numbers of leaves that some bundles visited.
-class LeafCounts {
+/// The bundles of a sorted pool, those with the densest rays first. If there are four or more, one
+/// of each quarter comes before all others: the pool is judged by them.
+template <Common common>
+class PoolBundles {
  public:
-  void add(std::size_t leaves) {
-    std::size_t at = size_++;
-    for (; at > 0 && counts_[at - 1] > leaves; --at) counts_[at] = counts_[at - 1];
-    counts_[at] = leaves;
+  static constexpr std::size_t judges = 4;
+
+  explicit PoolBundles(const RayPool<common>& pool) : pool_(pool) {
+    for (; size_ * bundle_size < pool.size(); ++size_) {
+      std::size_t at = size_;
+      for (; at > 0 && area(size_) < area(order_[at - 1]); --at) order_[at] = order_[at - 1];
+      order_[at] = size_;
+    }
+    if (size_ < judges) return;
+    for (std::size_t k = 0; k < judges; ++k) {
+      const std::size_t at = (2 * k + 1) * size_ / (2 * judges), judge = order_[at];
+      order_[at] = order_[k];
+      order_[k] = judge;
+    }
   }
-  /// The usual number, rather too low: of two the smaller, of four the second. One bundle may be an
-  /// exception.
-  [[nodiscard]] std::size_t usual() const { return counts_[(size_ - 1) / 2]; }
+
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// The first ray of the k-th bundle, and the number of its rays.
+  [[nodiscard]] std::size_t first(std::size_t k) const { return order_[k] * bundle_size; }
+  [[nodiscard]] std::size_t count(std::size_t k) const { return rays(order_[k]); }
 
  private:
+  [[nodiscard]] std::size_t rays(std::size_t bundle) const {
+    const std::size_t rest = pool_.size() - bundle * bundle_size;
+    return rest < bundle_size ? rest : bundle_size;
+  }
+  [[nodiscard]] unsigned area(std::size_t bundle) const {
+    return pool_.cells(bundle * bundle_size, rays(bundle));
+  }
+
+  const RayPool<common>& pool_;
   std::size_t size_ = 0;
-  std::size_t counts_[JudgedFirst::most];
+  std::size_t order_[tuning::pool_size / bundle_size];
 };
+
+/// The answer of rays that no bundle took.
+inline constexpr std::uint8_t unanswered = 2;
+
+/// Traces rays first .. first + count - 1 of a sorted pool as one bundle.
+template <Common common, class Geometry>
+BOULE_NOINLINE Outcome trace_sorted(const Geometry& geometry, const RayPool<common>& pool,
+                                    std::size_t first, std::size_t count, Effort& effort,
+                                    std::uint8_t* occluded) {
+  const RaysOfPool<common> rays(pool, first, static_cast<int>(count));
+  return trace_bundle<common>(geometry, rays, effort, occluded);
+}
+
+/// The same, halved until they form bundles. Returns the number of rays that remain unanswered.
+template <Common common, class Geometry>
+std::size_t trace_sorted_halves(const Geometry& geometry, const RayPool<common>& pool,
+                                std::size_t first, std::size_t count, Effort& effort,
+                                std::uint8_t* occluded) {
+  if (count < tuning::fewest_bundle_rays) return count;
+  const Outcome outcome = trace_sorted(geometry, pool, first, count, effort, occluded);
+  if (outcome == Outcome::traced) return 0;
+  if (outcome != Outcome::no_bundle) return count;
+  const std::size_t half = (count / 2 + max_width - 1) / max_width * max_width;
+  return trace_sorted_halves(geometry, pool, first, half, effort, occluded) +
+         trace_sorted_halves(geometry, pool, first + half, count - half, effort, occluded);
+}
 
 /// Sorts rays begin .. end - 1, at most a pool, by their place as their light sees it, and finds
-/// whether they hit anything. If some rays are left without an answer, the outcome is `sparse`, or
-/// `gave_up` where bundles seem to cost more than `unsorted`.
+/// whether they hit anything. Returns the ticks that a ray seems to take. Stops if these are more
+/// than `most`. Rays that no bundle takes remain unanswered.
 template <Common common, class Geometry>
-BOULE_NOINLINE Outcome any_hit_sorted(const Geometry& geometry, const PaddedStream& stream,
-                                      std::size_t begin, std::size_t end,
-                                      const UnsortedCost<Geometry>& unsorted,
-                                      std::uint8_t* occluded) {
+BOULE_NOINLINE float any_hit_sorted(const Geometry& geometry, const PaddedStream& stream,
+                                    std::size_t begin, std::size_t end, float most,
+                                    std::uint8_t* occluded) {
+  const std::uint64_t before = ticks();
   const RayPool<common> pool(stream, begin, end);
-  bool sparse = false;
-  std::size_t leaves = 0;  // of the last bundle
-  const auto trace = [&](std::size_t bundle) {
-    const std::size_t first = bundle * bundle_size, rest = pool.size() - first;
-    const std::size_t count = rest < bundle_size ? rest : bundle_size;
-    Outcome outcome = Outcome::no_bundle;
+  if (!pool.all_belong()) return 0;
+  const PoolBundles<common> bundles(pool);
+  const float sorting = ticks_since(before) / static_cast<float>(end - begin);
+  float cost = 0, judged = 0;
+  Costs costs;
+  for (std::size_t k = 0; k < bundles.size() && cost <= most; ++k) {
     Effort effort;
-    if (pool.all_belong() && count >= tuning::fewest_bundle_rays) {
-      const RaysOfPool<common> rays(pool, first, static_cast<int>(count));
-      outcome = trace_bundle<common>(geometry, rays, effort, occluded);
-    }
-    leaves = effort.leaves;
-    sparse = outcome == Outcome::sparse ||
-             (outcome != Outcome::traced &&
-              trace_gathered(geometry, pool, first, count, outcome, occluded));
-    return !sparse;
+    const std::uint64_t start = ticks();
+    const std::size_t count = bundles.count(k);
+    const std::size_t left =
+        trace_sorted_halves(geometry, pool, bundles.first(k), count, effort, occluded);
+    if (k >= bundles.judges || bundles.size() < bundles.judges) continue;
+    costs.add(ticks_since(start) + static_cast<float>(left) * most,
+              static_cast<float>(effort.leaves + 1));
+    judged += static_cast<float>(count);
+    if (k > 0) cost = sorting + costs.ticks() / judged;
+  }
+  return cost;
+}
+
+/// Traces the rays among begin .. end - 1 that are unanswered, unsorted.
+template <class Geometry>
+BOULE_NOINLINE void trace_unanswered(const Geometry& geometry, const PaddedStream& stream,
+                                     std::size_t begin, std::size_t end, Experience& known,
+                                     std::uint8_t* occluded) {
+  GatheredRays<bundle_size> rays;
+  std::size_t index[bundle_size], count = 0;
+  const auto trace = [&] {
+    std::uint8_t met[bundle_size];
+    const PaddedStream some(rays.view(count));
+    trace_unsorted(geometry, some, 0, count, known, met);
+    for (std::size_t k = 0; k < count; ++k) occluded[index[k]] = met[k];
+    count = 0;
   };
-  LeafCounts counts;
-  const auto goes_on = [&](std::size_t judged) {
-    counts.add(leaves);
-    return judged == 1 || !unsorted.is_less_than_bundle(counts.usual());
-  };
-  if (JudgedFirst((pool.size() + bundle_size - 1) / bundle_size).each(trace, goes_on))
-    return Outcome::traced;
-  return sparse ? Outcome::sparse : Outcome::gave_up;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (occluded[i] != unanswered) continue;
+    rays.set(count, stream.rays(), i);
+    index[count++] = i;
+    if (count == bundle_size) trace();
+  }
+  if (count != 0) trace();
+}
+
+/// Records a trial that found that a ray takes `cost` ticks if it is sorted.
+BOULE_INLINE void learn(float cost, Experience::Sorting& sorting) {
+  const std::uint32_t pays = cost <= sorting.most ? 1 : 0;
+  const bool is_clear =
+      tuning::clearly_more * cost < sorting.most || tuning::clearly_more * sorting.most < cost;
+  std::size_t rays = tuning::growth_while_agreed * sorting.rays;
+  if (rays < tuning::pool_size) rays = tuning::pool_size;
+  if (pays != sorting.pays) rays = 0;  // or it is the first trial
+  if (is_clear || rays > tuning::most_after_sorting) rays = tuning::most_after_sorting;
+  sorting.pays = pays;
+  sorting.rays = sorting.left = static_cast<std::uint32_t>(rays);
 }
 
 /// Finds whether rays begin .. end - 1, at most a pool, hit anything: sorted, or as rays without a
-/// promise where that seems to cost less. `known`: Query::experience.
+/// promise if these take less time. From time to time both ways are tried.
 template <Common common, class Geometry>
 BOULE_INLINE void any_hit_unordered(const Geometry& geometry, const PaddedStream& stream,
-                                    std::size_t begin, std::size_t end, Experience* known,
+                                    std::size_t begin, std::size_t end, Experience& known,
                                     std::uint8_t* occluded) {
-  const UnsortedCost<Geometry> unsorted(geometry, stream, begin, end, occluded);
-  Outcome outcome = Outcome::gave_up;
-  if (!unsorted.is_less_than_sorted())
-    outcome = any_hit_sorted<common>(geometry, stream, begin, end, unsorted, occluded);
-  if (outcome == Outcome::traced) return;
-  if (outcome == Outcome::sparse || unsorted.way() == Way::set) {
-    trace_sparse(geometry, stream, begin, end, occluded);
+  Experience::Sorting& sorting = known.sorting;
+  const std::size_t count = end - begin;
+  const bool is_trial =
+      sorting.left == 0 && count >= tuning::fewest_rays_judged && geometry.bvh.size != 0;
+  sorting.left -= sorting.left < count ? sorting.left : static_cast<std::uint32_t>(count);
+  if (!is_trial && sorting.pays == 0)
+    return trace_unsorted(geometry, stream, begin, end, known, occluded);
+
+  __builtin_memset(occluded + begin, unanswered, count);
+  const UnsortedSamples<Geometry> samples(geometry, stream, begin, end, known, occluded);
+  if (is_trial) sorting.most = samples.trace();
+  const float cost = any_hit_sorted<common>(geometry, stream, begin, end, sorting.most, occluded);
+  if (is_trial) learn(cost, sorting);
+  if (cost <= sorting.most) {
+    trace_unanswered(geometry, stream, begin, end, known, occluded);
+  } else if (is_trial) {
+    samples.trace_others();
   } else {
-    trace_scattered(geometry, stream, begin, end, Form::automatic, known, occluded);
+    sorting.left = 0;
+    trace_unsorted(geometry, stream, begin, end, known, occluded);
   }
 }
 
@@ -254,7 +289,7 @@ BOULE_INLINE void any_hit_unordered(const Geometry& geometry, const PaddedStream
 /// another way.
 template <Common common, class Geometry>
 BOULE_INLINE void any_hit_bundled(const Geometry& geometry, const PaddedStream& stream,
-                                  Experience* known, std::uint8_t* occluded) {
+                                  Experience& known, std::uint8_t* occluded) {
   const std::size_t size = stream.rays().size;
   for (std::size_t begin = 0; begin < size; begin += tuning::pool_size) {
     const std::size_t end = size - begin < tuning::pool_size ? size : begin + tuning::pool_size;

@@ -9,7 +9,6 @@
 #include "simd/kernel/search/flock/departures.h"
 #include "simd/kernel/search/flock/flight.h"
 #include "simd/kernel/search/flock/pair_queue.h"
-#include "simd/kernel/search/flock/scattered_stream.h"
 #include "simd/kernel/search/flock/set_candidates.h"
 #include "simd/kernel/search/packet/ray_by_ray.h"
 #include "simd/kernel/search/packet/tree_blocks.h"
@@ -23,6 +22,12 @@
 /// 2009, "Faster Incoherent Rays: Multi-BVH Ray Stream Tracing".) The order of the visits affects
 /// only the time.
 namespace boule::BOULE_KERNEL_ISA {
+
+/// The work of sets: how often a ray was tested against a node or a leaf, and how often a node or a
+/// leaf was visited.
+struct SetEffort {
+  std::size_t steps = 0, visits = 0;
+};
 
 /// Sets of rays, one after the other. Answers: HitStream for nearest hits, std::uint8_t* for any.
 template <class Answers>

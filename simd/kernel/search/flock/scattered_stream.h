@@ -30,15 +30,4 @@ BOULE_INLINE void trace_scattered(const PartsGeometry& geometry, const PaddedStr
   trace_groups(geometry, stream, begin, end, Solver::robust, form, answers);
 }
 
-/// The work of sets: how often a ray was tested against a node or a leaf, and how often a node or a
-/// leaf was visited.
-struct SetEffort {
-  std::size_t steps = 0, visits = 0;
-};
-
-/// Traces rays begin .. end - 1 as sets; `begin` is a multiple of W.
-template <class Answers>
-SetEffort trace_sets(const GeometryView& geometry, const PaddedStream& stream, std::size_t begin,
-                     std::size_t end, const Answers& answers);
-
 }  // namespace boule::BOULE_KERNEL_ISA
