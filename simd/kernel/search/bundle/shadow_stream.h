@@ -193,14 +193,17 @@ std::size_t trace_sorted_halves(const Geometry& geometry, const RayPool<common>&
 
 /// Sorts rays begin .. end - 1, at most a pool, by their place as their light sees it, and finds
 /// whether they hit anything. Returns the ticks that a ray seems to take. Stops if these are more
-/// than `most`. Rays that no bundle takes remain unanswered.
+/// than `most`. Adds the number of rays that no bundle takes, which remain unanswered, to `open`.
 template <Common common, class Geometry>
 BOULE_NOINLINE float any_hit_sorted(const Geometry& geometry, const PaddedStream& stream,
                                     std::size_t begin, std::size_t end, float most,
-                                    std::uint8_t* occluded) {
+                                    std::size_t& open, std::uint8_t* occluded) {
   const std::uint64_t before = ticks();
   const RayPool<common> pool(stream, begin, end);
-  if (!pool.all_belong()) return 0;
+  if (!pool.all_belong()) {
+    open += end - begin;
+    return 0;
+  }
   const PoolBundles<common> bundles(pool);
   const float sorting = ticks_since(before) / static_cast<float>(end - begin);
   float cost = 0, judged = 0;
@@ -211,6 +214,7 @@ BOULE_NOINLINE float any_hit_sorted(const Geometry& geometry, const PaddedStream
     const std::size_t count = bundles.count(k);
     const std::size_t left =
         trace_sorted_halves(geometry, pool, bundles.first(k), count, effort, occluded);
+    open += left;
     if (k >= bundles.judges || bundles.size() < bundles.judges) continue;
     costs.add(ticks_since(start) + static_cast<float>(left) * most,
               static_cast<float>(effort.leaves + 1));
@@ -273,10 +277,12 @@ BOULE_INLINE void any_hit_unordered(const Geometry& geometry, const PaddedStream
   __builtin_memset(occluded + begin, unanswered, count);
   const UnsortedSamples<Geometry> samples(geometry, stream, begin, end, known, occluded);
   if (is_trial) sorting.most = samples.trace();
-  const float cost = any_hit_sorted<common>(geometry, stream, begin, end, sorting.most, occluded);
+  std::size_t open = 0;
+  const float cost =
+      any_hit_sorted<common>(geometry, stream, begin, end, sorting.most, open, occluded);
   if (is_trial) learn(cost, sorting);
   if (cost <= sorting.most) {
-    trace_unanswered(geometry, stream, begin, end, known, occluded);
+    if (open != 0) trace_unanswered(geometry, stream, begin, end, known, occluded);
   } else if (is_trial) {
     samples.trace_others();
   } else {
