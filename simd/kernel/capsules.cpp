@@ -186,13 +186,19 @@ BOULE_INLINE void for_each_packet(const CapsulesNear& capsules, const RayStream&
   const Form form = query.form;
   const PaddedStream stream(rays);
   RayLanes lanes;
+  const CapsuleWedges wedges(capsules.view(), rays, query.coherence);
   NearCapsules near;
   std::size_t known_to = 0;  // of these rays `near` is known
   for (std::size_t first = 0; first < rays.size; first += width) {
     const std::size_t live = stream.live(first);
     unsigned left = wanted(first, live);
     if (left == 0) continue;
-    if (first >= known_to) {
+    if (wedges.known()) {
+      near = {};
+      near.listed = true;
+      left = wedges.find(stream, first, left, near);
+      near.any = left != 0;
+    } else if (first >= known_to) {
       const std::size_t end = (first / tuning::capsule_group + 1) * tuning::capsule_group;
       known_to = end < rays.size ? end : rays.size;
       near = capsules.find(stream, query.coherence, first, known_to);

@@ -30,6 +30,84 @@ struct NearCapsules {
   }
 };
 
+/// At most sixteen capsules, as rays see them that share their origin or their end, the apex: each
+/// spans a triangle with it, and a ray that hits the capsule leaves the plane of that triangle at a
+/// small angle only.
+class CapsuleWedges {
+ public:
+  /// As seen by the rays of a stream, if they have an apex.
+  CapsuleWedges(const CapsuleView& capsules, const RayStream& rays, Coherence coherence)
+      : one_end_(coherence == Coherence::common_end) {
+    if (capsules.slots != bvh_leaf_size || rays.size == 0) return;
+    if (!one_end_ && !rays.shared.has_origin()) return;
+    const Ray ray = get_ray(rays, 0);
+    const Vec3d dir = vec_cast<double>(ray.dir);
+    apex_ = one_end_ ? ray.org + dir : ray.org;
+    for (std::size_t k = 0; k < bvh_leaf_size; ++k)
+      if (capsules.id[k] >= 0) add(capsules.blocks[0], k);
+  }
+
+  [[nodiscard]] bool known() const { return size_ != 0; }
+  /// The rays among `lanes` of the packet at `first` that may hit a capsule; adds those capsules.
+  [[nodiscard]] BOULE_INLINE unsigned find(const PaddedStream& stream, std::size_t first,
+                                           unsigned lanes, NearCapsules& near) const {
+    const auto [rays, at] = stream.packet(first);
+    const Vec3<Real> d = load_directions(*rays, at);
+    const Real dd = filter_dot(d, d);
+    // Squares that may be inexact, and lines that miss the apex, are not judged.
+    RealMask judged = (Real(0x1p-80F) < dd) & (dd < Real(0x1p80F));
+    if (one_end_) {
+      const Vec3<Wide> end = load_origins(*rays, at) + widen(d);
+      const Vec3<Wide> apex{apex_.x, apex_.y, apex_.z};
+      judged = judged & (sum_abs(narrow(end - apex)) < Real(off_apex_)) &
+               (sum_abs(d) < Real(off_apex_ * 0x1p38F));  // else the sum may be inexact
+    }
+    unsigned found = 0;
+    for (std::size_t k = 0; k < size_; ++k) {
+      const Real along = filter_dot(d, {Real(x_[k]), Real(y_[k]), Real(z_[k])});
+      const unsigned in = lanes & ~bits(judged & (Real(square_[k]) * dd < along * along));
+      if (in != 0) near.add(slot_[k], 1);
+      found |= in;
+    }
+    return found;
+  }
+
+ private:
+  void add(const CapsuleBlock& block, std::size_t k) {
+    const Vec3d a{block.a_x[k], block.a_y[k], block.a_z[k]};
+    const Vec3d u = Vec3d{block.b_x[k], block.b_y[k], block.b_z[k]} - a, f = a - apex_;
+    const double radius = __builtin_fabs(double{block.radius[k]}), uu = dot(u, u);
+    const double place = -dot(f, u) / uu;  // of the nearest point; NaN: the segment is a point
+    const Vec3d nearest = f + u * (place < 0 ? 0.0 : place < 1 ? place : 1.0);
+    const double away = __builtin_sqrt(dot(nearest, nearest)) - radius, off = away * 0x1p-14;
+    const Vec3d normal = cross(f, u);
+    const double nn = dot(normal, normal);
+    const double coordinates = sum(a) + sum(apex_) + sum(u);
+    const bool good = 0x1p-38 * coordinates < off && 0x1p-40 * dot(f, f) * uu < nn &&
+                      nn < 0x1p200 && 0x1p-200 < nn;
+    slot_[size_] = k;
+    const double scale = good ? 1 / __builtin_sqrt(nn) : 0.0;
+    x_[size_] = static_cast<float>(normal.x * scale);
+    y_[size_] = static_cast<float>(normal.y * scale);
+    z_[size_] = static_cast<float>(normal.z * scale);
+    const double sine = (radius + off) / (away - off) + 0x1p-19;
+    square_[size_] = good && sine < 1 ? static_cast<float>(sine * sine * (1 + 0x1p-20)) : 2.0F;
+    if (good && off < off_apex_) off_apex_ = static_cast<float>(off * 0.99);
+    ++size_;
+  }
+  static double sum(const Vec3d& v) {
+    return __builtin_fabs(v.x) + __builtin_fabs(v.y) + __builtin_fabs(v.z);
+  }
+
+  bool one_end_;
+  std::size_t size_ = 0;
+  Vec3d apex_{};
+  float off_apex_ = 1e30F;  ///< lines may miss the apex by this
+  float x_[bvh_leaf_size], y_[bvh_leaf_size], z_[bvh_leaf_size];  ///< the normals of the planes
+  float square_[bvh_leaf_size];  ///< of the sine of the largest angle
+  std::size_t slot_[bvh_leaf_size];
+};
+
 /// The capsules of a geometry, if they are at most sixteen, or the children of the root of their
 /// tree.
 class CapsulesNear {
@@ -42,6 +120,7 @@ class CapsulesNear {
       if (capsules.id[k] >= 0) size_of_few_ = k + 1;
   }
 
+  [[nodiscard]] const CapsuleView& view() const { return capsules_; }
   /// Those that rays begin .. end - 1 of a stream may hit: any, unless the rays share origins,
   /// directions or ends. (With boxes of origins, shadow rays among a million spheres met nearly
   /// all, and paid for it.) `begin` is a multiple of W.
