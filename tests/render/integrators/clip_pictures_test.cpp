@@ -70,6 +70,32 @@ TEST(Clips, PicturesAreThoseOfTheReferencePath) {
   }
 }
 
+/// A part of a picture is that part of it, by samples of any number.
+TEST(Clips, AdaptiveSamplesAndCropsAgree) {
+  for (const Method method : {Method::whitted, Method::path}) {
+    const Scene scene = cut_picture(method);
+    RenderOptions options = options_of(scene);
+    const Image picture = render(scene, options);
+    const PixelRect part{20, 12, 44, 36};
+    RenderOptions cropped = options;
+    cropped.crop = PixelRect{16, 8, 48, 40};
+    cropped.threads = 3;
+    const Image some = render(scene, cropped);
+    for (int y = part.y0; y < part.y1; ++y) {
+      for (int x = part.x0; x < part.x1; ++x)
+        EXPECT_TRUE(same_bits(some.at(x - 16, y - 8), picture.at(x, y)));
+    }
+    const bool is_path = method == Method::path;
+    for (RenderOptions* each : {&options, &cropped}) {
+      (is_path ? each->noise : each->aa) = is_path ? 0.02F : 4;
+      each->min_spp = 16;
+      each->spp = 32;
+    }
+    const MeasuredPicture whole = measured(scene, options);
+    EXPECT_EQ(hash_of(measured(scene, cropped), part), hash_of(whole, part));
+  }
+}
+
 /// One ray at a time, which knows by itself where rays go on.
 TEST(Clips, RecordedRaysAddUpToThePicture) {
   const Scene scene = cut_picture(Method::whitted);

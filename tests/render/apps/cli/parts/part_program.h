@@ -55,7 +55,7 @@ class PartTest : public ProgramTest {
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
-  /// `render` of particles with bonds, in the edges of their cell.
+  /// `render` of particles with bonds, in the edges of their cell: cut, with ghosts, in fog.
   std::vector<std::string> render_bonds(const std::string& output,
                                         const std::vector<std::string>& more = {}) const {
     std::string text = "60\nLattice=\"6 0 0 0 6 0 0 0 6\" Properties=species:S:1:pos:R:3\n";
@@ -72,7 +72,11 @@ class PartTest : public ProgramTest {
                                       "--aov",        "id",
                                       "--style",      "balls-and-sticks",
                                       "--bonds",      "2",
-                                      "--cell-edges", "-q"};
+                                      "--cell-edges", "-q",
+                                      "--clip",       "x<4",
+                                      "--ghost",      "species == 'O'",
+                                      "--fog",        "0.5",
+                                      "--outline",    "1"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
   }
