@@ -228,4 +228,5 @@ def main():
             measure(name, make_scene(*atoms), options, Path(folder))
 
 
-main()
+if __name__ == "__main__":
+    main()

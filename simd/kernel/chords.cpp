@@ -172,17 +172,43 @@ BOULE_INLINE void scan_planes(const RayLanes& rays, Solver /*solver*/, const Pla
   }
 }
 
-/// Finds the chords of a ray in the tree as a LoneRay. Returns false if it cannot.
-BOULE_INLINE bool list_alone(const GeometryView& geometry, const Ray& ray, AllChords& all) {
-  if (!LoneRay::suits(geometry)) return false;
-  LoneRay lone(geometry, ray);
-  if (!lone.may()) return false;
-  lone.find_chords(geometry, [&](double enter, double leave, std::int32_t id, std::uint32_t slot) {
-    return all.add(enter, leave, id, slot);
-  });
-  return true;
-}
-BOULE_INLINE bool list_alone(const PartsGeometry&, const Ray&, AllChords&) { return false; }
+/// Finds the chords of single rays of a stream in the tree as LoneRays.
+template <class Geometry>
+class LoneRays {
+ public:
+  LoneRays(const GeometryView& geometry, const RayStream& rays)
+      : geometry_(geometry), stream_(rays), suits_(LoneRay::suits(geometry)) {}
+
+  /// Returns false if it cannot. Rays come in order.
+  BOULE_INLINE bool list(const Ray& ray, std::size_t index, AllChords& all) {
+    if (!suits_) return false;
+    const std::size_t lane = index % width;
+    if (index - lane != loaded_) {
+      loaded_ = index - lane;
+      packet_.load(stream_, loaded_, geometry_.bvh.extent);
+    }
+    if (!LoneRay::may(packet_, lane)) return false;
+    LoneRay lone(geometry_, ray, packet_, lane);
+    lone.find_chords(geometry_,
+                     [&](double enter, double leave, std::int32_t id, std::uint32_t slot) {
+                       return all.add(enter, leave, id, slot);
+                     });
+    return true;
+  }
+
+ private:
+  const GeometryView& geometry_;
+  PaddedStream stream_;
+  bool suits_;
+  LonePacket packet_;
+  std::size_t loaded_ = static_cast<std::size_t>(-1);
+};
+template <>
+class LoneRays<PartsGeometry> {
+ public:
+  LoneRays(const PartsGeometry&, const RayStream&) {}
+  static bool list(const Ray&, std::size_t, AllChords&) { return false; }
+};
 
 /// The chords outside the tree of a geometry of one part.
 BOULE_INLINE void list_others(const GeometryView& geometry, const RayLanes& rays, AllChords& all) {
@@ -194,9 +220,10 @@ BOULE_INLINE void list_others(const PartsGeometry&, const RayLanes&, AllChords&)
 /// The chords of a ray.
 template <class Geometry>
 BOULE_INLINE void chords_of_ray(const Geometry& geometry, const CapsuleView& capsules,
-                                const Ray& ray, AllChords& all) {
+                                const Ray& ray, std::size_t index, LoneRays<Geometry>& lone,
+                                AllChords& all) {
   if (!(ray.tmin < ray.tmax)) return;
-  const bool alone = list_alone(geometry, ray, all);
+  const bool alone = lone.list(ray, index, all);
   if (alone && !LoneRay::leaves_others(geometry) && capsules.slots == 0) return;
   RayLanes lanes;
   load_single(ray, lanes);
@@ -216,10 +243,11 @@ std::size_t list_chords(const Geometry& geometry, const CapsuleView& capsules,
                         const RayStream& rays, std::size_t first, const ChordStream& chords,
                         std::size_t* ends) {
   std::size_t count = 0;
+  LoneRays<Geometry> lone(geometry, rays);
   for (std::size_t i = first; i < rays.size; ++i) {
     const Ray ray = get_ray(rays, i);
     AllChords all(chords, count);
-    chords_of_ray(geometry, capsules, ray, all);
+    chords_of_ray(geometry, capsules, ray, i, lone, all);
     if (all.done()) return i;
     ends[i] = count = all.count();
   }

@@ -1,5 +1,6 @@
 // All that rays cross, and how long they are inside.
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -94,9 +95,42 @@ void visit_crossings(const RayChord& chord, const RayInterval& interval, const V
   if (chord.leave != chord.enter && interval.holds(chord.leave)) visit(chord.leave, false);
 }
 
+/// A few crossings of a ray, in order.
+class FewCrossings {
+ public:
+  static constexpr std::size_t most_chords = 8;
+
+  void add(const RayChord& chord, const RayInterval& interval) {
+    std::array<Crossing, 2> ends;
+    std::size_t left = 0, from = size_;
+    visit_crossings(chord, interval, [&](double t, bool entering) {
+      ends[left++] = {t, chord.id, entering};
+    });
+    size_ += left;
+    for (std::size_t at = size_; left > 0; --at) {
+      const bool moves = from > 0 && ends[left - 1].key() < crossings_[from - 1].key();
+      crossings_[at - 1] = moves ? crossings_[--from] : ends[--left];
+    }
+  }
+  [[nodiscard]] std::span<const Crossing> first(std::size_t limit) const {
+    return std::span(crossings_).first(std::min(size_, limit));
+  }
+
+ private:
+  std::array<Crossing, 2 * most_chords> crossings_;
+  std::size_t size_ = 0;
+};
+
 /// Appends the crossings of one ray in order, at most `limit`.
 void add_crossings(std::span<const RayChord> chords, const RayInterval& interval, std::size_t limit,
                    SortRoom<Crossing>& room, std::vector<Crossing>& to) {
+  if (chords.size() <= FewCrossings::most_chords) {
+    FewCrossings few;
+    for (const RayChord& chord : chords) few.add(chord, interval);
+    const auto wanted = few.first(limit);
+    to.insert(to.end(), wanted.begin(), wanted.end());
+    return;
+  }
   const std::size_t before = to.size();
   for (const RayChord& chord : chords) {
     visit_crossings(chord, interval, [&](double t, bool entering) {
@@ -159,6 +193,7 @@ Result<RayLists<Item>> Tracer::list_items(const RayView& rays, const std::string
   if (auto done = diagnose(std::cref(make)); !done) return done.error();
   const auto body = [&](TraceWorker& worker, std::size_t first) {
     std::vector<Item> found;
+    found.reserve(4 * worker.size());
     auto list = make_list();
     worker.find_chords(target(), [&](std::size_t k, std::span<const RayChord> chords) {
       const std::size_t before = found.size();

@@ -53,13 +53,7 @@ class Departures {
       go_alone(first_ + lane);
       return false;
     }
-    static_assert(sizeof(FlightRay) == FlightRay::rows * sizeof row_[0][0]);
-    get_row<0>(lane, to.ray);
-    get_row<1>(lane, to.ray);
-    get_row<2>(lane, to.ray);
-    get_row<3>(lane, to.ray);
-    get_row<4>(lane, to.ray);
-    get_row<5>(lane, to.ray);
+    rows_.get(lane, to.ray);
     to.rows.choose(to.ray);
     to.index = static_cast<std::uint32_t>(first_ + lane);
     const RayStream& rays = stream_.rays();
@@ -84,21 +78,9 @@ class Departures {
   }
   /// `reach`: the largest t |dir| at which a hit still counts.
   BOULE_INLINE void set(const RayLanes& packet, const Real& reach) {
-    const FilterRays& rays = packet.filter;
-    const auto [x, y, z] = slabs_of(packet, geometry_.bvh.extent);
-    store_rows(row_[0][0], {x.inverse, y.inverse, z.inverse, reach});
-    store_rows(row_[1][0], {x.near, y.near, z.near, rays.live_from});
-    store_rows(row_[2][0], {x.far, y.far, z.far, rays.live_to});
-    store_rows(row_[3][0], {rays.org.x, rays.org.y, rays.org.z, rays.origin_error});
-    store_rows(row_[4][0], {rays.unit.x, rays.unit.y, rays.unit.z, rays.unit.z});
-    store_rows(row_[5][0], {rays.h.x, rays.h.y, rays.h.z, rays.h.z});
-    judged_ = bits(is_judged(rays));
+    rows_.set(packet, geometry_.bvh.extent, reach);
+    judged_ = bits(is_judged(packet.filter));
     open_ = bits(Real(0.0F) <= reach) | (all_lanes & ~judged_);
-  }
-  template <std::size_t row>
-  BOULE_INLINE void get_row(std::size_t lane, FlightRay& ray) const {
-    constexpr std::size_t size = sizeof row_[row][0];
-    __builtin_memcpy(reinterpret_cast<char*>(&ray) + row * size, row_[row][lane], size);
   }
   /// Traces a ray as a single ray.
   BOULE_NOINLINE void go_alone(std::size_t index) {
@@ -112,7 +94,7 @@ class Departures {
   std::size_t first_ = 0, visits_ = 0;
   unsigned judged_ = 0;
   unsigned open_ = 0;  ///< lanes that may still find a hit in the tree
-  alignas(64) float row_[FlightRay::rows][width][4];
+  FlightRows rows_;
 };
 
 }  // namespace boule::BOULE_KERNEL_ISA

@@ -40,6 +40,40 @@ struct alignas(16) FlightRay {
   }
 };
 
+/// The FlightRays of W rays.
+class FlightRows {
+ public:
+  /// `extent`: BvhView::extent. `reach`: the largest t |dir| that counts.
+  BOULE_INLINE void set(const RayLanes& packet, float extent, const Real& reach) {
+    const FilterRays& rays = packet.filter;
+    const auto [x, y, z] = slabs_of(packet, extent);
+    store_rows(row_[0][0], {x.inverse, y.inverse, z.inverse, reach});
+    store_rows(row_[1][0], {x.near, y.near, z.near, rays.live_from});
+    store_rows(row_[2][0], {x.far, y.far, z.far, rays.live_to});
+    store_rows(row_[3][0], {rays.org.x, rays.org.y, rays.org.z, rays.origin_error});
+    store_rows(row_[4][0], {rays.unit.x, rays.unit.y, rays.unit.z, rays.unit.z});
+    store_rows(row_[5][0], {rays.h.x, rays.h.y, rays.h.z, rays.h.z});
+  }
+  BOULE_INLINE void get(std::size_t lane, FlightRay& ray) const {
+    static_assert(sizeof(FlightRay) == sizeof row_ / width);
+    get<0>(lane, ray);
+    get<1>(lane, ray);
+    get<2>(lane, ray);
+    get<3>(lane, ray);
+    get<4>(lane, ray);
+    get<5>(lane, ray);
+  }
+
+ private:
+  template <std::size_t row>
+  BOULE_INLINE void get(std::size_t lane, FlightRay& ray) const {
+    constexpr std::size_t size = sizeof row_[row][0];
+    __builtin_memcpy(reinterpret_cast<char*>(&ray) + row * size, row_[row][lane], size);
+  }
+
+  alignas(64) float row_[FlightRay::rows][width][4];
+};
+
 /// The offsets in a node, in floats, of the planes of its boxes that a ray crosses first along each
 /// axis, and of those that it crosses last.
 struct NodeRows {

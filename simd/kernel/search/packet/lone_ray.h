@@ -7,6 +7,7 @@
 
 #include "core/math/geometry.h"
 #include "simd/kernel/search/flock/flight.h"
+#include "simd/kernel/search/leaf/padded_stream.h"
 #include "simd/kernel/search/leaf/primitive_access.h"
 #include "simd/kernel/search/packet/parts.h"
 #include "simd/kernel/search/packet/tree_blocks.h"
@@ -17,6 +18,29 @@
 /// waits. Float rejects spheres or shortens the ray. The few spheres that may be hit before its end
 /// are solved in double, one after the other.
 namespace boule::BOULE_KERNEL_ISA {
+
+/// W rays of a stream, prepared together.
+class LonePacket {
+ public:
+  /// `first`: a multiple of W. `extent`: BvhView::extent.
+  BOULE_NOINLINE void load(const PaddedStream& stream, std::size_t first, float extent) {
+    const PacketRef packet = stream.packet(first);
+    RayLanes rays;
+    load_packet(*packet.rays, packet.first, rays);
+    store(a_, rays.exact.a);
+    store(inverse_a_, rays.exact.inverse_a);
+    store(length_, rays.filter.length);
+    rows_.set(rays, extent, rays.filter.live_to);
+    judged_ = bits(is_judged(rays.filter));
+  }
+
+ private:
+  friend class LoneRay;
+
+  FlightRows rows_;
+  alignas(64) double a_[width], inverse_a_[width], length_[width];
+  unsigned judged_;
+};
 
 class LoneRay {
  public:
@@ -31,22 +55,21 @@ class LoneRay {
   BOULE_INLINE static bool leaves_others(const PartsGeometry& /*geometry*/) { return true; }
 
   BOULE_INLINE LoneRay(const GeometryView& geometry, const Ray& ray)
-      : spheres_(geometry.spheres),
-        nodes_(geometry.bvh.nodes),
-        leaves_(spheres_.blocks + spheres_.scanned / bvh_leaf_size),
-        org_(ray.org),
-        dir_(vec_cast<double>(ray.dir)),
-        tmin_(ray.tmin),
-        source_(ray.source),
-        inside_(ray.inside) {
-    constexpr double largest{std::numeric_limits<float>::max()};
-    tmax_ = largest < ray.tmax ? largest : ray.tmax;
-    a_ = dot(dir_, dir_);
-    inverse_a_ = 1.0 / a_;
-    length_ = __builtin_sqrt(a_);
+      : LoneRay(geometry, ray, square(ray.dir)) {
     make_filter();
     set_slabs(geometry.bvh.extent);
     rows_.choose(ray_);
+  }
+  /// The ray of a lane of a packet.
+  BOULE_INLINE LoneRay(const GeometryView& geometry, const Ray& ray, const LonePacket& packet,
+                       std::size_t lane)
+      : LoneRay(geometry, ray, packet.a_[lane], packet.inverse_a_[lane], packet.length_[lane]) {
+    packet.rows_.get(lane, ray_);
+    rows_.choose(ray_);
+  }
+  /// Whether the rays of a packet may be LoneRays.
+  BOULE_INLINE static bool may(const LonePacket& packet, std::size_t lane) {
+    return (packet.judged_ >> lane & 1U) != 0;
   }
 
   /// Whether float can judge the ray, and it has no hits behind its origin.
@@ -84,6 +107,29 @@ class LoneRay {
   }
 
  private:
+  BOULE_INLINE LoneRay(const GeometryView& geometry, const Ray& ray, double a)
+      : LoneRay(geometry, ray, a, 1.0 / a, __builtin_sqrt(a)) {}
+  BOULE_INLINE LoneRay(const GeometryView& geometry, const Ray& ray, double a, double inverse_a,
+                       double length)
+      : spheres_(geometry.spheres),
+        nodes_(geometry.bvh.nodes),
+        leaves_(spheres_.blocks + spheres_.scanned / bvh_leaf_size),
+        org_(ray.org),
+        dir_(vec_cast<double>(ray.dir)),
+        tmin_(ray.tmin),
+        a_(a),
+        inverse_a_(inverse_a),
+        length_(length),
+        source_(ray.source),
+        inside_(ray.inside) {
+    constexpr double largest{std::numeric_limits<float>::max()};
+    tmax_ = largest < ray.tmax ? largest : ray.tmax;
+  }
+  BOULE_INLINE static double square(const Vec3f& v) {
+    const auto d = vec_cast<double>(v);
+    return dot(d, d);
+  }
+
   static constexpr std::size_t parts = bvh_width / width;
   static_assert(bvh_width == bvh_leaf_size);
   static constexpr std::size_t room = bvh_max_depth * (bvh_width - 1) + 1;
