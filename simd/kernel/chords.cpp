@@ -187,8 +187,8 @@ class LoneRays {
       loaded_ = index - lane;
       packet_.load(stream_, loaded_, geometry_.bvh.extent);
     }
-    if (!LoneRay::may(packet_, lane)) return false;
     LoneRay lone(geometry_, ray, packet_, lane);
+    if (!lone.may()) return false;
     lone.find_chords(geometry_,
                      [&](double enter, double leave, std::int32_t id, std::uint32_t slot) {
                        return all.add(enter, leave, id, slot);

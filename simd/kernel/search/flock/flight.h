@@ -46,7 +46,7 @@ class FlightRows {
   /// `extent`: BvhView::extent. `reach`: the largest t |dir| that counts.
   BOULE_INLINE void set(const RayLanes& packet, float extent, const Real& reach) {
     const FilterRays& rays = packet.filter;
-    const auto [x, y, z] = slabs_of(packet, extent);
+    const auto [x, y, z] = slabs_of(packet.exact, rays, extent);
     store_rows(row_[0][0], {x.inverse, y.inverse, z.inverse, reach});
     store_rows(row_[1][0], {x.near, y.near, z.near, rays.live_from});
     store_rows(row_[2][0], {x.far, y.far, z.far, rays.live_to});

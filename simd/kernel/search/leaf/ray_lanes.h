@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/math/number.h"
 #include "core/math/ray.h"
 #include "core/math/vec.h"
 #include "simd/abi/filter_bounds.h"
@@ -17,34 +18,52 @@ namespace boule::BOULE_KERNEL_ISA {
 
 inline constexpr double no_hit = std::numeric_limits<double>::infinity();
 
+/// One ray by itself has numbers in place of lanes, by the same formulas: core/math/number.h.
+using boule::abs;
+using boule::any;
+using boule::copysign;
+using boule::narrow;
+using boule::select;
+using boule::sqrt;
+using boule::widen;
+BOULE_INLINE float abs(float x) { return __builtin_fabsf(x); }
+BOULE_INLINE bool all(bool mask) { return mask; }
+
 /// Rays for the exact solver, in double.
-struct ExactRays {
-  Vec3<Wide> org, dir;
-  Wide a;           ///< dir.dir
-  Wide inverse_a;   ///< 1 / a
-  Wide tmin, tmax;  ///< valid hits: tmin < t <= tmax; tmax is at most FLT_MAX
-  Bits source;      ///< id of the primitive that the ray leaves, or no_primitive
-  WideMask inside;  ///< it leaves `source` on its inside
+template <class W, class Id, class Mask>
+struct ExactOf {
+  Vec3<W> org, dir;
+  W a;              ///< dir.dir
+  W inverse_a;      ///< 1 / a
+  W tmin, tmax;     ///< valid hits: tmin < t <= tmax; tmax is at most FLT_MAX
+  Id source;        ///< id of the primitive that the ray leaves, or no_primitive
+  Mask inside;      ///< it leaves `source` on its inside
   bool has_source;  ///< some lane's ray leaves a primitive
 };
+using ExactRays = ExactOf<Wide, Bits, WideMask>;
+using ExactRay = ExactOf<double, std::int32_t, bool>;
 
 /// Rays for the filters, in float. Distances are t |dir|: along the unit direction.
-struct FilterRays {
-  Vec3<Real> org;           ///< rounded to float
-  Vec3<Real> h;             ///< dir / |dir| (1 + slack u / 2), rounded; NaN: rejects nothing
-  Vec3<Real> unit;          ///< dir / |dir|, rounded
-  Real origin_error;        ///< bound of |org - exact origin|, plus filter::floor
-  bool origins_exact;       ///< every origin is a float
-  Wide length;              ///< |dir|
-  Real inverse_length;      ///< 1 / |dir|
-  Real live_from, live_to;  ///< the interval of t |dir| of valid hits, rounded
-  Real dead_below;          ///< lower bound of t |dir| of valid hits: 0, or -inf where tmin < 0
+template <class R, class W>
+struct FilterOf {
+  Vec3<R> org;           ///< rounded to float
+  Vec3<R> h;             ///< dir / |dir| (1 + slack u / 2), rounded; NaN: rejects nothing
+  Vec3<R> unit;          ///< dir / |dir|, rounded
+  R origin_error;        ///< bound of |org - exact origin|, plus filter::floor
+  bool origins_exact;    ///< every origin is a float
+  W length;              ///< |dir|
+  R inverse_length;      ///< 1 / |dir|
+  R live_from, live_to;  ///< the interval of t |dir| of valid hits, rounded
+  R dead_below;          ///< lower bound of t |dir| of valid hits: 0, or -inf where tmin < 0
 };
+using FilterRays = FilterOf<Real, Wide>;
+using FilterRay = FilterOf<float, double>;
 
 /// Lanes that float can judge, and that have no hits behind their origins. (In other lanes the
 /// direction is NaN.)
-BOULE_INLINE RealMask is_judged(const FilterRays& rays) {
-  return (rays.unit.x <= rays.unit.x) & (Real(0.0F) <= rays.dead_below);
+template <class R, class W>
+BOULE_INLINE auto is_judged(const FilterOf<R, W>& rays) {
+  return (rays.unit.x <= rays.unit.x) & (R(0.0F) <= rays.dead_below);
 }
 
 struct RayLanes {
@@ -61,45 +80,47 @@ BOULE_INLINE Vec3<Wide> widen(const Vec3<Real>& v) { return {widen(v.x), widen(v
 BOULE_INLINE Vec3<Real> narrow(const Vec3<Wide>& v) {
   return {narrow(v.x), narrow(v.y), narrow(v.z)};
 }
+BOULE_INLINE Vec3d widen(const Vec3f& v) { return vec_cast<double>(v); }
 
 /// a.b for filters, fused where the ISA can.
 BOULE_INLINE Real filter_dot(const Vec3<Real>& a, const Vec3<Real>& b) {
   return filter_fma(a.z, b.z, filter_fma(a.y, b.y, a.x * b.x));
 }
 
-BOULE_INLINE void make_filter(const ExactRays& rays, FilterRays& out) {
+template <class Exact, class R, class W>
+BOULE_INLINE void make_filter(const Exact& rays, FilterOf<R, W>& out) {
   out.org = narrow(rays.org);
-  const Wide error = sum_abs(rays.org - widen(out.org));
-  out.origins_exact = !any(Wide(0.0) < error);
-  out.origin_error = narrow(error * Wide(1 + 2 * filter::slack * filter::u) + Wide(filter::floor));
+  const W error = sum_abs(rays.org - widen(out.org));
+  out.origins_exact = !any(W(0.0) < error);
+  out.origin_error = narrow(error * W(1 + 2 * filter::slack * filter::u) + W(filter::floor));
   out.length = sqrt(rays.a);
-  const Wide inverse_length = out.length * rays.inverse_a;
+  const W inverse_length = out.length * rays.inverse_a;
   out.inverse_length = narrow(inverse_length);
   // NaN for dir 0 and for all numbers that are not finite.
   out.unit = narrow(rays.dir * inverse_length);
-  out.h = narrow(rays.dir * (inverse_length * Wide(1 + filter::slack / 2 * filter::u)));
-  const Real limit(filter::limit);
-  const RealMask small =
-      (abs(out.org.x) < limit) & (abs(out.org.y) < limit) & (abs(out.org.z) < limit);
-  const Real nan(std::numeric_limits<float>::quiet_NaN());
+  out.h = narrow(rays.dir * (inverse_length * W(1 + filter::slack / 2 * filter::u)));
+  const R limit(filter::limit);
+  const auto small = (abs(out.org.x) < limit) & (abs(out.org.y) < limit) & (abs(out.org.z) < limit);
+  const R nan(std::numeric_limits<float>::quiet_NaN());
   out.h.x = select(small, out.h.x, nan);
   out.unit.x = select(small, out.unit.x, nan);
-  const Real largest(std::numeric_limits<float>::max());
-  const Real from = narrow(rays.tmin * out.length), far = narrow(rays.tmax * out.length);
-  const Real to = select(largest < far, largest, far);  // NaN stays: the interval is then empty
-  const Real zero(0.0F);
+  const R largest(std::numeric_limits<float>::max());
+  const R from = narrow(rays.tmin * out.length), far = narrow(rays.tmax * out.length);
+  const R to = select(largest < far, largest, far);  // NaN stays: the interval is then empty
+  const R zero(0.0F);
   out.live_from = from;
   out.live_to = to;
-  out.dead_below = select(from < zero, Real(-std::numeric_limits<float>::infinity()), zero);
+  out.dead_below = select(from < zero, R(-std::numeric_limits<float>::infinity()), zero);
 }
 
 /// Computes the members that follow from dir, tmax and source.
-BOULE_INLINE void finish(ExactRays& rays) {
+template <class W, class Id, class Mask>
+BOULE_INLINE void finish(ExactOf<W, Id, Mask>& rays) {
   rays.a = dot(rays.dir, rays.dir);
-  rays.inverse_a = Wide(1.0) / rays.a;
-  const Wide largest(static_cast<double>(std::numeric_limits<float>::max()));
+  rays.inverse_a = W(1.0) / rays.a;
+  const W largest(static_cast<double>(std::numeric_limits<float>::max()));
   rays.tmax = select(largest < rays.tmax, largest, rays.tmax);
-  rays.has_source = !all(rays.source == Bits(no_primitive));
+  rays.has_source = !all(rays.source == Id(no_primitive));
 }
 
 /// The numbers of rays first .. first + W - 1; `first` is a multiple of W.

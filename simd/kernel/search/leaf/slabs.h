@@ -11,19 +11,21 @@ namespace boule::BOULE_KERNEL_ISA {
 /// The distances at which rays cross the planes of an axis. A plane at x is crossed at t = x
 /// inverse + near if it is the first of its slab, at x inverse + far if it is the second: `near` is
 /// rounded down and `far` up. `farthest`: the tree ends before this distance.
-struct Slab {
-  Real inverse, near, far;
+template <class R>
+struct SlabOf {
+  R inverse, near, far;
 
-  Slab() = default;
-  BOULE_INLINE Slab(const Wide& org, const Real& unit, const Real& farthest) {
-    const Real zero(0.0F), least(filter::slab_least), size = abs(unit);
-    const RealMask tiny = size < least;
-    const Real steep = Real(1.0F) / select(tiny, least, size);
+  SlabOf() = default;
+  template <class W>
+  BOULE_INLINE SlabOf(const W& org, const R& unit, const R& farthest) {
+    const R zero(0.0F), least(filter::slab_least), size = abs(unit);
+    const auto tiny = size < least;
+    const R steep = R(1.0F) / select(tiny, least, size);
     inverse = select(unit < zero, zero - steep, steep);
-    const Real aside = select(tiny, farthest * Real(4 * filter::slab_least), zero);
-    const Wide at = org * widen(inverse);
-    const Wide slack = (widen(aside) + Wide(filter::floor)) * widen(steep);
-    near = narrow(Wide(0.0) - at - slack);
+    const R aside = select(tiny, farthest * R(4 * filter::slab_least), zero);
+    const W at = org * widen(inverse);
+    const W slack = (widen(aside) + W(filter::floor)) * widen(steep);
+    near = narrow(W(0.0) - at - slack);
     far = narrow(slack - at);
   }
 
@@ -34,15 +36,18 @@ struct Slab {
     end = lesser_or(filter_fma(last, inverse, far), end);
   }
 };
+using Slab = SlabOf<Real>;
 
 /// The slabs along the three axes. `extent`: BvhView::extent.
-BOULE_INLINE Vec3<Slab> slabs_of(const RayLanes& rays, float extent) {
-  const Vec3<Real>& from = rays.filter.org;
-  const Real farthest = abs(from.x) + abs(from.y) + abs(from.z) + Real(extent);
-  const Vec3<Wide>& org = rays.exact.org;
-  const Vec3<Real>& unit = rays.filter.unit;
-  return {Slab(org.x, unit.x, farthest), Slab(org.y, unit.y, farthest),
-          Slab(org.z, unit.z, farthest)};
+template <class Exact, class R, class W>
+BOULE_INLINE Vec3<SlabOf<R>> slabs_of(const Exact& exact, const FilterOf<R, W>& filter,
+                                      float extent) {
+  const Vec3<R>& from = filter.org;
+  const R farthest = abs(from.x) + abs(from.y) + abs(from.z) + R(extent);
+  const Vec3<W>& org = exact.org;
+  const Vec3<R>& unit = filter.unit;
+  return {SlabOf<R>(org.x, unit.x, farthest), SlabOf<R>(org.y, unit.y, farthest),
+          SlabOf<R>(org.z, unit.z, farthest)};
 }
 
 /// Rays for box tests.
@@ -52,7 +57,7 @@ struct BoxRays {
 
   BoxRays() = default;
   BOULE_INLINE BoxRays(const RayLanes& rays, float extent)
-      : slabs(slabs_of(rays, extent)),
+      : slabs(slabs_of(rays.exact, rays.filter, extent)),
         from(select(rays.filter.unit.x <= rays.filter.unit.x, rays.filter.dead_below,
                     rays.filter.unit.x)) {}
 };

@@ -42,41 +42,47 @@ BOULE_INLINE Real grown_on_the_spot(const Real& radius) {
 }
 
 /// Where lines enter and leave spheres, if the discriminant is at least 0.
-struct LineRoots {
-  Wide enter, leave, discriminant;
-  Wide r, b;  ///< the radius, and (c - o).d
+template <class W>
+struct LineRootsOf {
+  W enter, leave, discriminant;
+  W r, b;  ///< the radius, and (c - o).d
 };
+using LineRoots = LineRootsOf<Wide>;
 
 /// The roots of balls from their discriminants, r^2 - l.l: `f` leads from the origins to the
 /// centres, b = f.d.
-BOULE_INLINE void find_roots(const ExactRays& rays, const Vec3<Wide>& f, const Wide& rr,
-                             const Wide& b, const Wide& discriminant, Wide& enter, Wide& leave) {
-  const Wide q = b + copysign(sqrt(rays.a * discriminant), b);
-  const Wide from_a = q * rays.inverse_a;
+template <class Exact, class W>
+BOULE_INLINE void find_roots(const Exact& rays, const Vec3<W>& f, const W& rr, const W& b,
+                             const W& discriminant, W& enter, W& leave) {
+  const W q = b + copysign(sqrt(rays.a * discriminant), b);
+  const W from_a = q * rays.inverse_a;
   // A tangent line has the same root twice, and cc / q might be the quotient of two rounding
   // errors.
-  const WideMask secant = Wide(0.0) < discriminant;
-  const Wide from_cc = select(secant, (dot(f, f) - rr) / q, from_a);
+  const auto secant = W(0.0) < discriminant;
+  const W from_cc = select(secant, (dot(f, f) - rr) / q, from_a);
 
-  const WideMask ordered = from_cc < from_a;
+  const auto ordered = from_cc < from_a;
   enter = select(ordered, from_cc, from_a);
   leave = select(ordered, from_a, from_cc);
 }
 
 /// Closest approach in double, never fused. core/reference.cpp derives the formula.
-BOULE_INLINE LineRoots meet_lines(const ExactRays& rays, const SphereLanes& sphere) {
-  const Vec3<Wide> f = widen(sphere.center) - rays.org;
-  const Wide r = widen(sphere.radius);
-  const Wide b = dot(f, rays.dir);
-  const Vec3<Wide> l = f - rays.dir * (b * rays.inverse_a);
-  const Wide rr = r * r;
+template <class Exact, class W>
+BOULE_INLINE LineRootsOf<W> meet_lines(const Exact& rays, const Vec3<W>& center, const W& r) {
+  const Vec3<W> f = center - rays.org;
+  const W b = dot(f, rays.dir);
+  const Vec3<W> l = f - rays.dir * (b * rays.inverse_a);
+  const W rr = r * r;
 
-  LineRoots line;
+  LineRootsOf<W> line;
   line.discriminant = rr - dot(l, l);
   line.r = r;
   line.b = b;
   find_roots(rays, f, rr, b, line.discriminant, line.enter, line.leave);
   return line;
+}
+BOULE_INLINE LineRoots meet_lines(const ExactRays& rays, const SphereLanes& sphere) {
+  return meet_lines(rays, widen(sphere.center), widen(sphere.radius));
 }
 
 /// Solver robust.

@@ -29,6 +29,7 @@ class LonePacket {
     load_packet(*packet.rays, packet.first, rays);
     store(a_, rays.exact.a);
     store(inverse_a_, rays.exact.inverse_a);
+    store(tmax_, rays.exact.tmax);
     store(length_, rays.filter.length);
     rows_.set(rays, extent, rays.filter.live_to);
     judged_ = bits(is_judged(rays.filter));
@@ -38,7 +39,7 @@ class LonePacket {
   friend class LoneRay;
 
   FlightRows rows_;
-  alignas(64) double a_[width], inverse_a_[width], length_[width];
+  alignas(64) double a_[width], inverse_a_[width], tmax_[width], length_[width];
   unsigned judged_;
 };
 
@@ -54,34 +55,47 @@ class LoneRay {
   }
   BOULE_INLINE static bool leaves_others(const PartsGeometry& /*geometry*/) { return true; }
 
-  BOULE_INLINE LoneRay(const GeometryView& geometry, const Ray& ray)
-      : LoneRay(geometry, ray, square(ray.dir)) {
-    make_filter();
-    set_slabs(geometry.bvh.extent);
+  BOULE_INLINE LoneRay(const GeometryView& geometry, const Ray& ray) : LoneRay(geometry) {
+    set(ray);
+    finish(exact_);
+    FilterRay filter;
+    make_filter(exact_, filter);
+    const auto [x, y, z] = slabs_of(exact_, filter, geometry.bvh.extent);
+    const auto& [org, h, unit, error, exact, length, inverse, from, to, below] = filter;
+    ray_ = {{x.inverse, y.inverse, z.inverse},
+            to,
+            {x.near, y.near, z.near},
+            from,
+            {x.far, y.far, z.far},
+            to,
+            {org.x, org.y, org.z},
+            error,
+            {unit.x, unit.y, unit.z},
+            unit.z,
+            {h.x, h.y, h.z},
+            h.z};
+    length_ = length;
+    judged_ = is_judged(filter);
     rows_.choose(ray_);
   }
   /// The ray of a lane of a packet.
   BOULE_INLINE LoneRay(const GeometryView& geometry, const Ray& ray, const LonePacket& packet,
                        std::size_t lane)
-      : LoneRay(geometry, ray, packet.a_[lane], packet.inverse_a_[lane], packet.length_[lane]) {
+      : LoneRay(geometry) {
+    set(ray);
+    exact_.a = packet.a_[lane];
+    exact_.inverse_a = packet.inverse_a_[lane];
+    exact_.tmax = packet.tmax_[lane];
     packet.rows_.get(lane, ray_);
+    length_ = packet.length_[lane];
+    judged_ = (packet.judged_ >> lane & 1U) != 0;
     rows_.choose(ray_);
-  }
-  /// Whether the rays of a packet may be LoneRays.
-  BOULE_INLINE static bool may(const LonePacket& packet, std::size_t lane) {
-    return (packet.judged_ >> lane & 1U) != 0;
   }
 
   /// Whether float can judge the ray, and it has no hits behind its origin.
-  [[nodiscard]] BOULE_INLINE bool may() const {
-    constexpr float limit = filter::limit;
-    const bool is_small = __builtin_fabsf(ray_.org[0]) < limit &&
-                          __builtin_fabsf(ray_.org[1]) < limit &&
-                          __builtin_fabsf(ray_.org[2]) < limit;
-    return is_small && ray_.unit[0] == ray_.unit[0] && !(tmin_ < 0);
-  }
+  [[nodiscard]] BOULE_INLINE bool may() const { return judged_; }
   /// The largest t |dir| that counts.
-  [[nodiscard]] BOULE_INLINE float end() const { return static_cast<float>(tmax_ * length_); }
+  [[nodiscard]] BOULE_INLINE float end() const { return static_cast<float>(exact_.tmax * length_); }
 
   /// Finds the nearest hit in the tree before `hit`, the nearest one so far. `reach`: the largest
   /// t |dir| that counts.
@@ -107,71 +121,22 @@ class LoneRay {
   }
 
  private:
-  BOULE_INLINE LoneRay(const GeometryView& geometry, const Ray& ray, double a)
-      : LoneRay(geometry, ray, a, 1.0 / a, __builtin_sqrt(a)) {}
-  BOULE_INLINE LoneRay(const GeometryView& geometry, const Ray& ray, double a, double inverse_a,
-                       double length)
+  BOULE_INLINE explicit LoneRay(const GeometryView& geometry)
       : spheres_(geometry.spheres),
         nodes_(geometry.bvh.nodes),
-        leaves_(spheres_.blocks + spheres_.scanned / bvh_leaf_size),
-        org_(ray.org),
-        dir_(vec_cast<double>(ray.dir)),
-        tmin_(ray.tmin),
-        a_(a),
-        inverse_a_(inverse_a),
-        length_(length),
-        source_(ray.source),
-        inside_(ray.inside) {
-    constexpr double largest{std::numeric_limits<float>::max()};
-    tmax_ = largest < ray.tmax ? largest : ray.tmax;
-  }
-  BOULE_INLINE static double square(const Vec3f& v) {
-    const auto d = vec_cast<double>(v);
-    return dot(d, d);
+        leaves_(spheres_.blocks + spheres_.scanned / bvh_leaf_size) {}
+  BOULE_INLINE void set(const Ray& ray) {
+    exact_.org = ray.org;
+    exact_.dir = vec_cast<double>(ray.dir);
+    exact_.tmin = ray.tmin;
+    exact_.tmax = ray.tmax;
+    exact_.source = ray.source;
+    exact_.inside = ray.inside;
   }
 
   static constexpr std::size_t parts = bvh_width / width;
   static_assert(bvh_width == bvh_leaf_size);
   static constexpr std::size_t room = bvh_max_depth * (bvh_width - 1) + 1;
-
-  /// The formulas of make_filter() (ray_lanes.h) for one ray.
-  BOULE_INLINE void make_filter() {
-    const double inverse_length = length_ * inverse_a_,
-                 error_of = 1 + 2 * filter::slack * filter::u;
-    const double longer = inverse_length * (1 + filter::slack / 2 * filter::u);
-    const double org[]{org_.x, org_.y, org_.z}, dir[]{dir_.x, dir_.y, dir_.z};
-    double error = 0;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      ray_.org[axis] = static_cast<float>(org[axis]);
-      error += __builtin_fabs(org[axis] - double{ray_.org[axis]});
-      ray_.unit[axis] = static_cast<float>(dir[axis] * inverse_length);
-      ray_.h[axis] = static_cast<float>(dir[axis] * longer);
-    }
-    ray_.origin_error = static_cast<float>(error * error_of + filter::floor);
-    constexpr float largest = std::numeric_limits<float>::max();
-    const float far = static_cast<float>(tmax_ * length_);
-    ray_.live_from = static_cast<float>(tmin_ * length_);
-    ray_.live_to = largest < far ? largest : far;
-  }
-  /// The formulas of Slab (slabs.h) for one ray.
-  BOULE_INLINE void set_slabs(float extent) {
-    constexpr auto least = static_cast<float>(filter::slab_least);
-    constexpr auto beside = static_cast<float>(4 * filter::slab_least);
-    const float farthest = __builtin_fabsf(ray_.org[0]) + __builtin_fabsf(ray_.org[1]) +
-                           __builtin_fabsf(ray_.org[2]) + extent;
-    const double org[]{org_.x, org_.y, org_.z};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float size = __builtin_fabsf(ray_.unit[axis]);
-      const bool tiny = size < least;
-      const float steep = 1.0F / (tiny ? least : size);
-      ray_.inverse[axis] = ray_.unit[axis] < 0 ? -steep : steep;
-      const float aside = tiny ? farthest * beside : 0.0F;
-      const double at = org[axis] * double{ray_.inverse[axis]};
-      const double slack = (double{aside} + filter::floor) * double{steep};
-      ray_.near[axis] = static_cast<float>(0.0 - at - slack);
-      ray_.far[axis] = static_cast<float>(slack - at);
-    }
-  }
 
   /// Visits the leaves that the ray enters, near children first, until one says that it is enough:
   /// Ask::visit(*this, leaf). Returns whether one did.
@@ -225,7 +190,7 @@ class LoneRay {
       for (std::size_t part = 0; part < parts; ++part) {
         const LeafPart spheres = ray.get_part(leaf, part);
         RealMask may = ray.may_meet(spheres);
-        if (ray.source_ != no_primitive) may = may | spheres.own;
+        if (ray.exact_.source != no_primitive) may = may | spheres.own;
         for (unsigned in = bits(may); in != 0; in &= in - 1) {
           const auto slot = spheres.first + static_cast<std::uint32_t>(std::countr_zero(in));
           if (ray.add_chord(slot, add)) return true;
@@ -317,7 +282,8 @@ class LoneRay {
     const std::size_t at = part * width;
     const auto first = static_cast<std::uint32_t>(spheres_.scanned + index * bvh_leaf_size + at);
     RealMask own = uniform(false);
-    if (source_ != no_primitive) own = load_integers(spheres_.id + first) == Bits(source_);
+    if (exact_.source != no_primitive)
+      own = load_integers(spheres_.id + first) == Bits(exact_.source);
     return {{load(leaf.center_x + at), load(leaf.center_y + at), load(leaf.center_z + at)},
             load(leaf.radius + at),
             first,
@@ -335,7 +301,7 @@ class LoneRay {
       const LeafPart spheres = get_part(leaf, part);
       // The ray hits its own sphere again only if it leaves it on its inside; only double can find
       // the hit.
-      if (inside_ && any(spheres.own)) {
+      if (exact_.inside && any(spheres.own)) {
         candidates_.add(Real(-static_cast<float>(no_hit)), count_from(spheres.first),
                         bits(spheres.own));
       }
@@ -367,16 +333,10 @@ class LoneRay {
   };
   BOULE_INLINE Chord meet(std::uint32_t slot, std::int32_t id) const {
     const SlotSphere sphere = get_slot(spheres_, slot);
-    const Vec3d f = Vec3d{double{sphere.x}, double{sphere.y}, double{sphere.z}} - org_;
-    const double r = double{sphere.radius}, rr = r * r, b = dot(f, dir_);
-    if (id == source_) return {-no_hit, (b + b) * inverse_a_, inside_};
-    const Vec3d l = f - dir_ * (b * inverse_a_);
-    const double discriminant = rr - dot(l, l);
-    const double q = b + __builtin_copysign(__builtin_sqrt(a_ * discriminant), b);
-    const double from_a = q * inverse_a_;
-    const double from_cc = 0 < discriminant ? (dot(f, f) - rr) / q : from_a;
-    const bool ordered = from_cc < from_a;
-    return {ordered ? from_cc : from_a, ordered ? from_a : from_cc, 0 <= discriminant};
+    const Vec3d center{double{sphere.x}, double{sphere.y}, double{sphere.z}};
+    const auto line = meet_lines(exact_, center, double{sphere.radius});
+    if (id != exact_.source) return {line.enter, line.leave, 0 <= line.discriminant};
+    return {-no_hit, (line.b + line.b) * exact_.inverse_a, exact_.inside};
   }
   BOULE_INLINE void solve(std::uint32_t slot, Hit& hit) {
     const std::int32_t id = id_of(spheres_, slot);
@@ -393,18 +353,19 @@ class LoneRay {
   BOULE_INLINE bool add_chord(std::uint32_t slot, const Add& add) const {
     const std::int32_t id = id_of(spheres_, slot);
     const Chord chord = meet(slot, id);
-    const bool counts = chord.met && tmin_ < chord.leave && chord.enter <= tmax_;
+    const bool counts = chord.met && exact_.tmin < chord.leave && chord.enter <= exact_.tmax;
     return counts && add(chord.enter, chord.leave, id, slot);
   }
-  [[nodiscard]] BOULE_INLINE bool holds(double t) const { return tmin_ < t && t <= tmax_; }
+  [[nodiscard]] BOULE_INLINE bool holds(double t) const {
+    return exact_.tmin < t && t <= exact_.tmax;
+  }
 
   const SphereView& spheres_;
   const BvhNode* nodes_;
   const SphereBlock* leaves_;
-  Vec3d org_, dir_;
-  double tmin_, tmax_, a_, inverse_a_, length_;
-  std::int32_t source_;
-  bool inside_;
+  ExactRay exact_;
+  double length_;
+  bool judged_;
   FlightRay ray_;
   NodeRows rows_;
   FlightCandidates candidates_;
