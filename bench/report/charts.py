@@ -150,3 +150,16 @@ def noise(report):
          (scene["random"], "the same, plain random numbers", HOT, "s")],
         "{mean_samples:.3g} samples a pixel: 99 % within {within_99:.3g} after {seconds:.3g} s")
         for scene in report["noise"]]
+
+
+def edges(report):
+    """Error over time of whole pictures without noise, a chart for each scene: bench/others/edge_pictures.py."""
+    lines = {"adaptive": ("Boule, --aa", INK, "o"), "uniform": ("Boule, as many samples everywhere", BLUE, "^"),
+             "povray": ("POV-Ray, adaptive", HOT, "s")}
+    rows = sorted(report.get("edges", []), key=lambda row: row["seconds"])
+    return [over_time(
+        f"Error of whole pictures over time, {scene}", "RMS error, codes of 255", "rmse",
+        [([row for row in rows if (row["scene"], row["program"]) == (scene, program)], *look)
+         for program, look in lines.items()],
+        "{mode}: RMS error {rmse:.3g}, 99.9 % within {p999:.3g}, after {seconds:.3g} s")
+        for scene in solvers.unique(report.get("edges", []), "scene")]

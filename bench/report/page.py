@@ -143,6 +143,30 @@ def noise_table(report):
          "as many everywhere take": "{uniform:.2f} times as long", "at random": "{random:.2f} times as long"})
 
 
+def seconds_at(error, rows):
+    """The seconds after which rows, the errors of which fall, have this error: between neighbours on logarithmic axes."""
+    rows = sorted(rows, key=lambda row: row["seconds"])
+    for before, after in zip(rows, rows[1:]):
+        if before["rmse"] >= error >= after["rmse"]:
+            share = math.log(before["rmse"] / error) / math.log(before["rmse"] / after["rmse"])
+            return before["seconds"] * (after["seconds"] / before["seconds"]) ** share
+    return None
+
+
+def edge_table(report):
+    """What POV-Ray takes, and Boule with as many samples everywhere, over --aa at the same error."""
+    rows, adaptive = [], {}
+    for row in report.get("edges", []):
+        adaptive.setdefault(row["scene"], []).append(row) if row["program"] == "adaptive" else None
+    for row in report.get("edges", []):
+        ours = seconds_at(row["rmse"], adaptive[row["scene"]]) if row["program"] != "adaptive" else None
+        times = f"{row['seconds'] / ours:.1f}" if ours else "-"
+        rows.append(row | {"name": {"povray": "POV-Ray"}.get(row["program"], "Boule"), "times": times})
+    return table(rows, {"scene": "{scene}", "program": "{name}", "samples": "{mode}", "seconds": "{seconds:.3f}",
+                        "RMS error": "{rmse:.2f}", "99.9 % within": "{p999:.1f}",
+                        "times the seconds of --aa at that error": "{times}"}) if rows else ""
+
+
 def peer_table(rows):
     return table(
         [row | {"share": f"{100 * row['mrays_per_s'] / row['one_solve']:.0f} %" if row["one_solve"] else "-"}
@@ -169,5 +193,6 @@ def page(report, charts):
         epsilons=figures("epsilons"),
         pictures=pictures(report), growth=figures("growth"), path_size="{} x {}".format(*report["path_size"]),
         paths=figures("paths") + path_table(report), noise=figures("noise") + noise_table(report),
+        edges=(figures("edges") + edge_table(report)) or "<p>They were not measured.</p>",
         embree=html.escape(f"Embree {peers['embree']}") if peers else "This build found no Embree 3 (libembree-dev)",
         peers=peer_table(peers["rows"]) if peers else "")

@@ -17,6 +17,7 @@ import sys
 
 import page
 import readme
+import solvers
 
 
 def write(path, text):
@@ -29,10 +30,13 @@ def write(path, text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("figures", type=pathlib.Path, help="report.json")
-    parser.add_argument("--charts", type=pathlib.Path, metavar="FOLDER", help="write two charts here")
+    parser.add_argument("--edges", type=pathlib.Path, nargs="*", default=[], metavar="FIGURES.json",
+                        help="what bench/others/edge_pictures.py has measured")
+    parser.add_argument("--charts", type=pathlib.Path, metavar="FOLDER", help="write the charts of documents here")
     parser.add_argument("--readme", type=pathlib.Path, help="a text whose figures are brought up to date")
     arguments = parser.parse_args()
     report = json.loads(arguments.figures.read_text(encoding="utf-8"))
+    report["edges"] = [row for path in arguments.edges for row in json.loads(path.read_text(encoding="utf-8"))]
     charts = None
     if importlib.util.find_spec("matplotlib"):
         import charts
@@ -42,6 +46,8 @@ def main():
     if arguments.charts and charts:
         write(arguments.charts / "speed_against_error.svg", charts.alone(charts.main_speed(report)))
         write(arguments.charts / "error_at_equal_time.svg", charts.alone(charts.paths(report)[0]))
+        for scene, svg in zip(solvers.unique(report["edges"], "scene"), charts.edges(report)):
+            write(arguments.charts / f"edges_{scene}.svg", charts.alone(svg))
     if arguments.readme:
         text = readme.with_block(arguments.readme.read_text(encoding="utf-8"), report)
         if text is None:
