@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -9,8 +10,8 @@
 namespace boule {
 
 /// Finds the materials of the hits of one stream of rays, in the form of an integrator: AnyMaterial
-/// is made of a FlatMaterial. Materials in a colour of their own are made at their first hit, and
-/// stay valid until the next stream.
+/// is made of a FlatMaterial. Materials in a colour of their own are made at their first hit, some
+/// again where there are many colours, and stay valid until the next stream.
 template <class AnyMaterial>
 class MaterialFinder {
  public:
@@ -21,7 +22,9 @@ class MaterialFinder {
   /// Begins a stream of `rays` rays.
   void start(std::size_t rays) {
     made_.clear();
-    if (scene_.has_own_colors) made_.reserve(rays);  // so that every material keeps its address
+    if (!scene_.has_own_colors) return;
+    made_.reserve(rays);  // so that every material keeps its address
+    last_made_.fill({});
   }
 
   /// The material of the primitive that was hit. Precondition: it is called at most once for each
@@ -29,16 +32,27 @@ class MaterialFinder {
   const AnyMaterial& find(const Hit& hit) {
     const MaterialRef ref = scene_.material_ref(hit);
     if (!ref.has_color()) return materials_[ref.index()];
-    // Neighbouring rays often hit the same primitive, or others of its colour.
-    if (!made_.empty() && ref == last_) return made_.back();
-    last_ = ref;
-    return made_.emplace_back(scene_.colored_material(ref));
+    Made& last = last_made_[slot_of(ref)];
+    if (last.material == nullptr || !(last.ref == ref))
+      last = {ref, &made_.emplace_back(scene_.colored_material(ref))};
+    return *last.material;
   }
 
  private:
+  struct Made {
+    MaterialRef ref;
+    const AnyMaterial* material = nullptr;
+  };
+  static constexpr unsigned slot_bits = 6;
+
+  /// Spreads colours evenly (Knuth's multiplicative hashing).
+  static std::size_t slot_of(MaterialRef ref) {
+    return ref.bits() * std::uint32_t{0x9e3779b9} >> (32 - slot_bits);
+  }
+
   const PreparedScene& scene_;
   std::vector<AnyMaterial> materials_, made_;
-  MaterialRef last_;
+  std::array<Made, 1U << slot_bits> last_made_{};  ///< by slot_of()
 };
 
 }  // namespace boule
