@@ -16,7 +16,7 @@
 #include "core/base/float_environment.h"
 #include "render/image/image_format.h"
 #include "render/image/image_plan.h"
-#include "render/image/module_loader.h"
+#include "render/image/module/module_loader.h"
 #include "render/image/output_file.h"
 #include "render/image/tone.h"
 

@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "render/image/byte_sink.h"
-#include "render/image/byte_source.h"
 #include "render/image/image_format.h"
-#include "render/image/image_module.h"
-#include "render/image/module_report.h"
+#include "render/image/module/byte_sink.h"
+#include "render/image/module/byte_source.h"
+#include "render/image/module/image_module.h"
+#include "render/image/module/module_report.h"
 
 namespace boule {
 

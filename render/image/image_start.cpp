@@ -7,7 +7,7 @@
 
 #include "render/image/built_in_table.h"
 #include "render/image/image_format.h"
-#include "render/image/module_loader.h"
+#include "render/image/module/module_loader.h"
 #include "render/image/output_file.h"
 #include "render/threads/threads.h"
 

@@ -8,7 +8,7 @@
 #include "core/scene/scene.h"
 #include "render/image/file_damage.h"
 #include "render/image/image_format.h"
-#include "render/image/module_loader.h"
+#include "render/image/module/module_loader.h"
 #include "render/memory/available_memory.h"
 
 namespace boule {

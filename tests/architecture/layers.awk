@@ -35,7 +35,7 @@ BEGIN {
 
   # The wing of files: nothing of apps, and of the engine what says how much memory there is, and pictures.
   layer("^render/files/file/", "^(core|render/(memory|files/file))/", any)
-  layer("^render/files/particle_file/", "^(core|render/(memory|files/(file|particle_file)))/|^render/image/module_search\\.h$", any)
+  layer("^render/files/particle_file/", "^(core|render/(memory|files/(file|particle_file)))/|^render/image/module/module_search\\.h$", any)
   layer("^render/files/particles/", "^(core|render/(memory|files/(file|particle_file|particles)))/", any)
   layer("^render/files/packed/", narrow "|^render/(memory|files/(file|packed))/|^render/image/output_file\\.h$", any)
   # Scenes name pictures: their reader returns plain numbers, which core can hold.
@@ -71,7 +71,7 @@ BEGIN {
 
   # Outside things and their one owner; tests and benchmarks are free to use them.
   owner("#include <xsimd/", "^simd/lanes/xsimd_", "xsimd")
-  owner("#include <OpenImageIO/", "^render/image/(image_module\\.cpp|module_writer\\.(h|cpp)|descriptor_proxy\\.h)$", "OpenImageIO")
+  owner("#include <OpenImageIO/", "^render/image/module/(image_module\\.cpp|module_writer\\.(h|cpp)|descriptor_proxy\\.h)$", "OpenImageIO")
   owner("#include <png\\.h>", "^render/image/png_table\\.cpp$", "libpng")
   owner("#include <(pango|cairo)", "^render/apps/job/overlay/overlay_module\\.cpp$", "cairo and pango")
   owner("#include <hdf5", "^render/files/particle_file/hdf5/hdf5_values\\.h$", "libhdf5")
@@ -85,7 +85,7 @@ BEGIN {
   owner("#include <(cpuid\\.h|sys/auxv\\.h)>|__builtin_cpu_|xgetbv|getauxval", "^simd/dispatch/cpu\\.", "CPUID")
   owner("#include <(iostream|print|syslog\\.h)>|std::(cout|cerr|clog|cin)[^_a-z]|" word "(v?[fd]?printf|f?puts|f?putc|putchar|fmt::print|perror|syslog)[ (]|" word "(stdout|stderr|STD(OUT|ERR)_FILENO)[^_a-zA-Z0-9]", "^render/apps/cli/", "the terminal")
   owner("#include <c?assert(\\.h)?>|" word "(_exit|_Exit|exit|quick_exit|abort|terminate|raise|longjmp|assert|__builtin_(trap|abort|unreachable))[ ]*\\(", "^render/apps/(cli/|python/values/call\\.cpp$)", "the end of the process")
-  owner(word "(secure_)?getenv[ ]*\\(", "^(render/apps/cli|simd/dispatch)/|^render/apps/job/source_date\\.cpp$", "the environment")
+  owner(word "(secure_)?getenv[ ]*\\(", "^(render/apps/cli|simd/dispatch)/|^render/apps/job/picture/source_date\\.cpp$", "the environment")
   owner("#include <fast_float/", "^render/files/particle_file/text/text_number\\.cpp$", "fast_float")
   anywhere("^[ \t]*#[ \t]*define[ \t]", "^(core/base/platform\\.h|render/files/particle_file/text/text_number\\.cpp)$", "a macro")
 }

@@ -7,7 +7,7 @@
 #include "render/apps/cli/process/messages.h"
 #include "render/apps/cli/process/own_memory.h"
 #include "render/apps/cli/process/standard_streams.h"
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/option_values.h"
 #include "render/files/particle_file/bridge/bridge_reader.h"
 #include "render/threads/threads.h"
 

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 
-#include "render/apps/job/look_values.h"
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/look_values.h"
+#include "render/apps/job/options/option_values.h"
 #include "render/files/particles/colors/color_map.h"
 
 namespace boule {

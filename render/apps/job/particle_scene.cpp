@@ -10,7 +10,7 @@
 
 #include "core/base/text.h"
 #include "core/math/geometry.h"
-#include "render/apps/job/look_choices.h"
+#include "render/apps/job/options/look_choices.h"
 #include "render/files/file/mapped_text.h"
 #include "render/files/file/npy_header.h"
 #include "render/files/packed/packed_file.h"

@@ -5,7 +5,7 @@
 #include <limits>
 #include <tuple>
 
-#include "render/apps/job/render_choices.h"
+#include "render/apps/job/options/render_choices.h"
 
 namespace boule {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "core/optics/camera_builder.h"
 #include "core/scene/instances.h"
-#include "render/apps/job/camera_option.h"
+#include "render/apps/job/options/camera_option.h"
 #include "render/apps/job/overlay/legend_room.h"
 #include "render/apps/job/particle_scene.h"
 #include "render/files/particle_file/particle_file.h"

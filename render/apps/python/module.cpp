@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/base/version.h"
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/option_values.h"
 #include "render/apps/python/pickling.h"
 #include "render/apps/python/pictures/picture.h"
 #include "render/apps/python/pictures/rendering.h"

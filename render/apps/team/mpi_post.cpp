@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "render/apps/team/mpi_module.h"
-#include "render/image/module_search.h"
+#include "render/image/module/module_search.h"
 
 namespace boule {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "render/image/image_plan.h"
-#include "render/image/module_loader.h"
+#include "render/image/module/module_loader.h"
 #include "tests/render/image/files.h"
 #include "tests/support/temp_dir.h"
 

@@ -1,4 +1,4 @@
-#include "render/image/module_search.h"
+#include "render/image/module/module_search.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

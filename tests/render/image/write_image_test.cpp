@@ -14,7 +14,7 @@
 #include <thread>
 
 #include "render/image/finished_picture.h"
-#include "render/image/module_loader.h"
+#include "render/image/module/module_loader.h"
 #include "render/image/read_image.h"
 #include "render/image/write_image.h"
 #include "tests/render/image/files.h"

@@ -14,7 +14,7 @@
 #include "render/apps/cli/process/reading_limit.h"
 #include "render/apps/cli/report/output_check.h"
 #include "render/apps/cli/report/run_report.h"
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/option_values.h"
 #include "render/apps/job/particle_scene.h"
 #include "render/apps/job/scene_loader.h"
 #include "render/files/packed/pack.h"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "render/apps/job/look_values.h"
+#include "render/apps/job/options/look_values.h"
 #include "render/apps/job/particle_scene.h"
 #include "render/files/packed/packed_file.h"
 #include "render/files/particle_file/particle_file.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/scene/scene.h"
-#include "render/apps/job/shown_values.h"
+#include "render/apps/job/options/shown_values.h"
 
 namespace boule::cli {
 

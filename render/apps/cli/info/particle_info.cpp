@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "render/apps/cli/info/camera_info.h"
+#include "render/apps/job/options/shown_values.h"
 #include "render/apps/job/particle_scene.h"
-#include "render/apps/job/shown_values.h"
 #include "render/files/particle_file/particle_file.h"
 #include "render/frame/scheduler.h"
 #include "render/prepare/default_camera.h"

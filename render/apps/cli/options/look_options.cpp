@@ -3,8 +3,8 @@
 #include <string>
 
 #include "render/apps/cli/options/option_kinds.h"
-#include "render/apps/job/look_choices.h"
-#include "render/apps/job/look_values.h"
+#include "render/apps/job/options/look_choices.h"
+#include "render/apps/job/options/look_values.h"
 
 namespace boule::cli {
 namespace {

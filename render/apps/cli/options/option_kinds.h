@@ -12,8 +12,8 @@
 #include "core/base/error.h"
 #include "core/scene/names.h"
 #include "render/apps/cli/options/options.h"
-#include "render/apps/job/choice.h"
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/choice.h"
+#include "render/apps/job/options/option_values.h"
 #include "render/files/file/nearest_name.h"
 
 namespace boule::cli {
@@ -93,7 +93,7 @@ void add_choice(CLI::App& app, const std::string& name, Target& target,
   add_parsed(app, name, target, parse, "one of " + names, names, help, hint);
 }
 
-/// The option of one row of a list of choices (render/apps/job/choice.h).
+/// The option of one row of a list of choices (render/apps/job/options/choice.h).
 template <class Owner, class Member, class Rule, class To>
 void add_row(CLI::App& app, const Choice<Owner, Member, Rule, To>& row, Owner& owner) {
   const std::string names = (row.name == "threads" ? "-t," : "") + row.option();

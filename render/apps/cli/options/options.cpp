@@ -16,9 +16,9 @@
 #include "render/apps/cli/options/trace_options.h"
 #include "render/apps/cli/options/usage.h"
 #include "render/apps/cli/options/view_options.h"
-#include "render/apps/job/look_values.h"
-#include "render/apps/job/option_values.h"
-#include "render/apps/job/render_choices.h"
+#include "render/apps/job/options/look_values.h"
+#include "render/apps/job/options/option_values.h"
+#include "render/apps/job/options/render_choices.h"
 
 namespace boule::cli {
 namespace {

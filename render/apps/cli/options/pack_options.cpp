@@ -2,8 +2,8 @@
 
 #include "render/apps/cli/options/look_options.h"
 #include "render/apps/cli/options/option_kinds.h"
-#include "render/apps/job/option_values.h"
-#include "render/apps/job/render_choices.h"
+#include "render/apps/job/options/option_values.h"
+#include "render/apps/job/options/render_choices.h"
 
 namespace boule::cli {
 

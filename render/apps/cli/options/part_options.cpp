@@ -1,7 +1,7 @@
 #include "render/apps/cli/options/part_options.h"
 
 #include "render/apps/cli/options/option_kinds.h"
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/option_values.h"
 
 namespace boule::cli {
 

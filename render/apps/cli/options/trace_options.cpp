@@ -4,7 +4,7 @@
 
 #include "render/apps/cli/options/command_app.h"
 #include "render/apps/cli/options/option_kinds.h"
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/option_values.h"
 
 namespace boule::cli {
 namespace {

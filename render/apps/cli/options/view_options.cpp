@@ -3,7 +3,7 @@
 #include <string>
 
 #include "render/apps/cli/options/option_kinds.h"
-#include "render/apps/job/look_values.h"
+#include "render/apps/job/options/look_values.h"
 
 namespace boule::cli {
 

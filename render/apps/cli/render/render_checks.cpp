@@ -10,8 +10,8 @@
 #include "render/apps/cli/report/output_check.h"
 #include "render/apps/cli/report/picture_stream.h"
 #include "render/apps/cli/report/run_report.h"
-#include "render/apps/job/legend.h"
 #include "render/apps/job/overlay/overlay.h"
+#include "render/apps/job/picture/legend.h"
 #include "render/image/image_format.h"
 
 namespace boule::cli {

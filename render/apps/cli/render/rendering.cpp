@@ -14,7 +14,7 @@
 #include "render/apps/cli/report/output_check.h"
 #include "render/apps/cli/report/picture_stream.h"
 #include "render/apps/job/overlay/overlay_labels.h"
-#include "render/apps/job/source_date.h"
+#include "render/apps/job/picture/source_date.h"
 #include "render/frame/partial_picture.h"
 #include "render/frame/scheduler.h"
 #include "render/image/finished_picture.h"

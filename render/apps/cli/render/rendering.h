@@ -16,7 +16,7 @@
 #include "render/apps/cli/report/run_report.h"
 #include "render/apps/cli/report/stats.h"
 #include "render/apps/job/overlay/overlay.h"
-#include "render/apps/job/picture_header.h"
+#include "render/apps/job/picture/picture_header.h"
 #include "render/apps/job/scene_loader.h"
 #include "render/files/scene_file/scene_file.h"
 #include "render/frame/stopwatch.h"

@@ -8,7 +8,7 @@
 #include "render/apps/cli/process/exit_code.h"
 #include "render/apps/cli/report/live_report.h"
 #include "render/apps/cli/report/stats.h"
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/option_values.h"
 #include "render/files/scene_file/scene_file.h"
 
 namespace boule::cli {

@@ -1,7 +1,7 @@
 #include "render/apps/job/overlay/legend_room.h"
 
-#include "render/apps/job/legend.h"
 #include "render/apps/job/overlay/overlay_layout.h"
+#include "render/apps/job/picture/legend.h"
 
 namespace boule {
 

@@ -9,7 +9,7 @@
 #include "core/base/version.h"
 #include "render/apps/job/overlay/overlay_layout.h"
 #include "render/apps/job/overlay/svg_page.h"
-#include "render/image/module_search.h"
+#include "render/image/module/module_search.h"
 #include "render/image/output_file.h"
 #include "render/image/tone.h"
 

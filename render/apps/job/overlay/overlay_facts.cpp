@@ -9,8 +9,8 @@
 
 #include "core/base/text.h"
 #include "core/math/geometry.h"
-#include "render/apps/job/legend.h"
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/option_values.h"
+#include "render/apps/job/picture/legend.h"
 #include "render/files/file/nearest_name.h"
 
 namespace boule {

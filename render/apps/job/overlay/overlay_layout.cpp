@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "render/apps/job/legend.h"
+#include "render/apps/job/picture/legend.h"
 
 namespace boule {
 namespace {

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "render/apps/job/legend.h"
+#include "render/apps/job/picture/legend.h"
 
 namespace boule {
 namespace {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "render/apps/job/legend.h"
+#include "render/apps/job/picture/legend.h"
 #include "render/image/encode_image.h"
 
 namespace boule {

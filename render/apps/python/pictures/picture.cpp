@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "render/apps/job/source_date.h"
+#include "render/apps/job/picture/source_date.h"
 #include "render/apps/python/values/arrays.h"
 #include "render/apps/python/values/call.h"
 #include "render/apps/python/values/choices.h"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "render/apps/job/overlay/overlay.h"
-#include "render/apps/job/picture_header.h"
+#include "render/apps/job/picture/picture_header.h"
 #include "render/image/write_image.h"
 #include "render/renderer/renderer.h"
 

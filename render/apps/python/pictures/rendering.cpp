@@ -9,11 +9,11 @@
 #include <string>
 #include <utility>
 
-#include "render/apps/job/legend.h"
-#include "render/apps/job/look_choices.h"
+#include "render/apps/job/options/look_choices.h"
+#include "render/apps/job/options/render_choices.h"
 #include "render/apps/job/overlay/legend_room.h"
 #include "render/apps/job/overlay/overlay_labels.h"
-#include "render/apps/job/render_choices.h"
+#include "render/apps/job/picture/legend.h"
 #include "render/apps/python/pictures/picture.h"
 #include "render/apps/python/scenes/scenes.h"
 #include "render/apps/python/values/call.h"

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "core/scene/number_text.h"
-#include "render/apps/job/render_choices.h"
+#include "render/apps/job/options/render_choices.h"
 #include "render/apps/python/queries/points.h"
 #include "render/apps/python/queries/ray_input.h"
 #include "render/apps/python/queries/shared_tracer.h"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/apps/job/render_choices.h"
+#include "render/apps/job/options/render_choices.h"
 #include "render/apps/python/scenes/scenes.h"
 #include "render/apps/python/values/arrays.h"
 #include "render/apps/python/values/call.h"

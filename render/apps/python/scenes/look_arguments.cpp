@@ -1,6 +1,6 @@
 #include <string>
 
-#include "render/apps/job/look_choices.h"
+#include "render/apps/job/options/look_choices.h"
 #include "render/apps/python/scenes/scenes.h"
 #include "render/apps/python/values/job_arguments.h"
 

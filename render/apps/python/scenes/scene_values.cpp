@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/scene/kinds.h"
-#include "render/apps/job/legend.h"
+#include "render/apps/job/picture/legend.h"
 #include "render/apps/python/values/errors.h"
 #include "render/apps/python/values/field_values.h"
 #include "render/apps/python/values/values.h"

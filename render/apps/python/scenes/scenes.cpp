@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "core/scene/instances.h"
+#include "render/apps/job/options/render_choices.h"
 #include "render/apps/job/particle_scene.h"
-#include "render/apps/job/render_choices.h"
 #include "render/apps/job/scene_loader.h"
 #include "render/apps/python/scenes/scene_values.h"
 #include "render/apps/python/values/errors.h"

@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "core/scene/scene.h"
-#include "render/apps/job/choice.h"
+#include "render/apps/job/options/choice.h"
 #include "render/apps/python/values/arguments.h"
 #include "render/apps/python/values/errors.h"
 #include "render/renderer/aov_channels.h"
@@ -19,8 +19,9 @@ namespace boule::python {
 /// Precondition: it is given.
 std::string text_of(const Arguments& given, const char* name, char between);
 
-/// The argument of one row of a list of choices (render/apps/job/choice.h), if it is given. Returns
-/// whether it was; a flag counts only where it is True. An Error if its value is not understood.
+/// The argument of one row of a list of choices (render/apps/job/options/choice.h), if it is given.
+/// Returns whether it was; a flag counts only where it is True. An Error if its value is not
+/// understood.
 template <class Owner, class Member, class Rule, class To>
 bool read_row(const Arguments& given, const Choice<Owner, Member, Rule, To>& row, Owner& owner) {
   const std::string key(row.name);

@@ -3,7 +3,7 @@
 #include <new>
 #include <utility>
 
-#include "render/image/module_search.h"
+#include "render/image/module/module_search.h"
 
 namespace boule {
 namespace {

@@ -1,5 +1,5 @@
 // What the colours of a picture mean, as SVG.
-#include "render/apps/job/legend.h"
+#include "render/apps/job/picture/legend.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

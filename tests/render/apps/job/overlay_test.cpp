@@ -1,6 +1,6 @@
 // What is drawn on pictures, without what draws it.
 #include "render/apps/job/overlay/overlay.h"
-#include "render/apps/job/legend.h"
+#include "render/apps/job/picture/legend.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "render/apps/job/look_values.h"
+#include "render/apps/job/options/look_values.h"
 
 namespace boule {
 namespace {

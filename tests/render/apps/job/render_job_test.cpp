@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "render/apps/job/option_values.h"
-#include "render/apps/job/picture_header.h"
+#include "render/apps/job/options/option_values.h"
+#include "render/apps/job/picture/picture_header.h"
 
 namespace boule {
 namespace {

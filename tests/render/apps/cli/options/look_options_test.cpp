@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "render/apps/cli/options/options.h"
-#include "render/apps/job/look_values.h"
+#include "render/apps/job/options/look_values.h"
 
 namespace boule::cli {
 namespace {

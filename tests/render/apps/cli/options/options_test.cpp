@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/option_values.h"
 
 namespace boule::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "core/base/error.h"
 #include "render/image/image_format.h"
-#include "render/image/image_module.h"
+#include "render/image/module/image_module.h"
 
 namespace boule {
 

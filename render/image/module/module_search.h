@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/base/error.h"
-#include "render/image/image_module.h"
+#include "render/image/module/image_module.h"
 
 namespace boule {
 

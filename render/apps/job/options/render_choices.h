@@ -4,9 +4,9 @@
 #include <tuple>
 #include <utility>
 
-#include "render/apps/job/choice.h"
-#include "render/apps/job/look_values.h"
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/choice.h"
+#include "render/apps/job/options/look_values.h"
+#include "render/apps/job/options/option_values.h"
 #include "render/apps/job/render_job.h"
 
 namespace boule {

@@ -1,11 +1,11 @@
-#include "render/apps/job/source_date.h"
+#include "render/apps/job/picture/source_date.h"
 
 #include <fmt/format.h>
 
 #include <cstdlib>
 #include <ctime>
 
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/option_values.h"
 
 namespace boule {
 namespace {

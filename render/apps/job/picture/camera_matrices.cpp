@@ -1,4 +1,4 @@
-#include "render/apps/job/camera_matrices.h"
+#include "render/apps/job/picture/camera_matrices.h"
 
 #include <algorithm>
 #include <limits>

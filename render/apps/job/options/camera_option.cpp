@@ -1,4 +1,4 @@
-#include "render/apps/job/camera_option.h"
+#include "render/apps/job/options/camera_option.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include <exception>
 #include <string>
 
-#include "render/image/image_module.h"
+#include "render/image/module/image_module.h"
 
 /// Helpers that fill in the Report of the functions of a Table: those of the module, and the
 /// built-in ones.

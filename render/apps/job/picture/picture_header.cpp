@@ -1,12 +1,12 @@
-#include "render/apps/job/picture_header.h"
+#include "render/apps/job/picture/picture_header.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <string>
 
-#include "render/apps/job/camera_matrices.h"
-#include "render/apps/job/shown_values.h"
+#include "render/apps/job/options/shown_values.h"
+#include "render/apps/job/picture/camera_matrices.h"
 
 namespace boule {
 

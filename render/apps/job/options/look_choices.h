@@ -5,8 +5,8 @@
 #include <tuple>
 #include <utility>
 
-#include "render/apps/job/choice.h"
-#include "render/apps/job/look_values.h"
+#include "render/apps/job/options/choice.h"
+#include "render/apps/job/options/look_values.h"
 #include "render/apps/job/particle_look.h"
 
 namespace boule {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "render/image/descriptor_proxy.h"
-#include "render/image/image_module.h"
-#include "render/image/module_report.h"
+#include "render/image/module/descriptor_proxy.h"
+#include "render/image/module/image_module.h"
+#include "render/image/module/module_report.h"
 
 /// The part of the image module that writes. Only the module's sources include this.
 namespace boule::image_module {

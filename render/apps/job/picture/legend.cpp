@@ -1,4 +1,4 @@
-#include "render/apps/job/legend.h"
+#include "render/apps/job/picture/legend.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/option_values.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "render/apps/job/look_values.h"
+#include "render/apps/job/options/look_values.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 
 #include "core/math/color_names.h"
 #include "core/math/geometry.h"
-#include "render/apps/job/option_values.h"
+#include "render/apps/job/options/option_values.h"
 #include "render/files/file/nearest_name.h"
 #include "render/files/particle_file/particle_file.h"
 #include "render/files/particles/colors/color_map.h"

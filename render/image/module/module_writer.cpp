@@ -1,4 +1,4 @@
-#include "render/image/module_writer.h"
+#include "render/image/module/module_writer.h"
 
 #include <algorithm>
 #include <cstdint>

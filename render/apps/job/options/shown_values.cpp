@@ -1,4 +1,4 @@
-#include "render/apps/job/shown_values.h"
+#include "render/apps/job/options/shown_values.h"
 
 #include <fmt/format.h>
 

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <vector>
 
-#include "render/image/image_module.h"
-#include "render/image/module_report.h"
-#include "render/image/module_writer.h"
+#include "render/image/module/image_module.h"
+#include "render/image/module/module_report.h"
+#include "render/image/module/module_writer.h"
 
 namespace boule::image_module {
 namespace {

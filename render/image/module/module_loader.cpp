@@ -1,4 +1,4 @@
-#include "render/image/module_loader.h"
+#include "render/image/module/module_loader.h"
 
 #include <unistd.h>
 
@@ -12,7 +12,7 @@
 #include <system_error>
 
 #include "render/image/built_in_table.h"
-#include "render/image/module_search.h"
+#include "render/image/module/module_search.h"
 #include "render/memory/available_memory.h"
 #include "render/threads/threads.h"
 
