@@ -261,8 +261,7 @@ TEST(Capsules, ThinOnesStayInThePicture) {
     scene.camera = camera;
     RenderOptions options = options_of(scene);
     const PreparedScene prepared = prepare(scene, width, height).value();
-    const SmallSpheres small(prepared.geometry, prepared.camera_view, width, {0, 0, width, height},
-                             serial_for);
+    const SmallSpheres small(prepared, width, {0, 0, width, height}, serial_for);
     options.spp = 256;
     const Image reference = render(scene, options);
     int marked = 0, missed = 0;

@@ -72,7 +72,7 @@ Numbers Work::numbers() const {
     std::visit([&](const auto& samples) { all.insert(all.end(), samples.begin(), samples.end()); },
                channel.samples);
   for (int i = 0; outline && i < side * side; ++i)
-    all.push_back(static_cast<float>(outline->points(i % side, i / side)));
+    all.push_back(static_cast<float>(outline->ink(i % side, i / side)));
   for (const RecordedRay& ray : record.rays()) all.push_back(ray.own.r);
   for (const TracedHit& hit : hits) all.push_back(static_cast<float>(hit.t));
   all.insert(all.end(), met.begin(), met.end());
