@@ -38,6 +38,9 @@ def over_time(scale):
 REPORT_JSON = {
     "provenance": {"cpu": "A <CPU>", "cores": 2, "compiler": "g++", "flags": "-O2", "commit": "0123abc",
                    "date": "2026-11-22", "command": "report -o report.json"},
+    "edges": [{"scene": "lecture", "program": program, "mode": mode, "seconds": seconds, "rmse": rmse, "p999": 9}
+              for program, mode, seconds, rmse in (("adaptive", "--aa 8", 1, 2), ("adaptive", "--aa 4", 4, 1),
+                                                   ("uniform", "1 spp", 0.5, 9), ("povray", "+A0.1", 12, 2**0.5))],
     "settings": {"quick": True, "seed": 1}, "widest": "avx2", "path_size": [128, 72],
     "speeds": [{"scene": scene, "structure": structure, "isa": isa, "solver": solver, "mrays_per_s": rate + i,
                 "least": 9, "most": 20, "differ": 3}
@@ -61,7 +64,7 @@ REPORT_JSON = {
          "least": rate, "most": rate, "ratio": rate / 50, "count": 4096, "mismatches": wrong, "one_solve": 200}
         for rays in ("primary", "shadow") for contender, rate, wrong in (
             ("embree-single", 40, 9), ("embree-8", 50, 7), ("boule-avx2", 90, 0), ("boule-avx512", 150, 0))]}}
-DRAWN = ("speeds", "errors", "epsilons", "growth", "paths", "noise")
+DRAWN = ("speeds", "errors", "epsilons", "growth", "paths", "noise", "edges")
 
 
 def tips(svg):
@@ -85,7 +88,8 @@ class Charts(unittest.TestCase):
 
     def test_shipped_charts_suit_light_and_dark(self):
         shipped = sorted(REPORT.glob("*.svg"))
-        self.assertEqual([path.name for path in shipped], ["error_at_equal_time.svg", "speed_against_error.svg"])
+        self.assertEqual([path.name for path in shipped], ["edges_flake4.svg", "edges_metal_glass_plastic.svg",
+                                                             "error_at_equal_time.svg", "speed_against_error.svg"])
         for path in shipped:
             self.expect_colors(path.read_text())
             self.assertIn(chart.style(), path.read_text())
@@ -139,9 +143,9 @@ class Charts(unittest.TestCase):
 class Texts(unittest.TestCase):
     def test_page_shows_everything(self):
         text = page.page(REPORT_JSON, charts)
-        self.assertEqual((text.count("<svg "), text.count("<h2>"), text.count("<table>")), (12, 9, 9))
+        self.assertEqual((text.count("<svg "), text.count("<h2>"), text.count("<table>")), (13, 10, 10))
         for part in ("A &lt;CPU&gt;, 2 cores", "runs at <b>0.92</b> of fast (u1000, scan, scalar)", "Embree 3.13.",
-                     'src="data:image/png;base64,iQ=="', '<td class="number">125 | 1.5 | 2</td>'):
+                     '<td class="number">6.0</td>', 'src="data:image/png;base64,iQ=="', '<td class="number">125 | 1.5 | 2</td>'):
             self.assertIn(part, text)
         self.assertIn("found no Embree", page.page(REPORT_JSON | {"peers": None}, None))
 
