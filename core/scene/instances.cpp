@@ -281,7 +281,10 @@ std::optional<InstanceProblem> find_instance_problem(const Scene& scene) {
   const bool many = count_with(scene, survey.counts()).total() > max_primitives;
   if (!many || groups_to_share(scene)) return std::nullopt;
   return InstanceProblem{
-      {}, 0, {"group", "shows more than 2147483647 primitives, some of them beyond 1e17"}};
+      {},
+      0,
+      {"group",
+       "shows more than 2147483647 primitives, some of them beyond 1e17 or beside ghosts"}};
 }
 
 PrimitiveCount count_primitives(const Scene& scene) {
@@ -316,8 +319,14 @@ void visit_shown_groups(const Scene& scene,
   walk_groups<Sphere>(scene, survey.counts(), scene.instances, function);
 }
 
+bool may_have_ghosts(const Scene& scene) {
+  return std::any_of(
+      scene.materials.begin(), scene.materials.end(),
+      [](const NamedMaterial& named) { return std::holds_alternative<Ghost>(named.material); });
+}
+
 std::optional<std::vector<ShownGroup>> groups_to_share(const Scene& scene) {
-  if (scene.instances.empty()) return std::nullopt;
+  if (scene.instances.empty() || may_have_ghosts(scene)) return std::nullopt;
   const GroupSurvey survey(scene);
   const PrimitiveCount count = count_with(scene, survey.counts());
   if (!saves_memory(scene, count)) return std::nullopt;

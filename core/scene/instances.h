@@ -79,9 +79,12 @@ void visit_shown_groups(const Scene& scene, const std::function<void(const Shown
 using SphereRun = std::span<const Sphere>;
 using SphereRuns = std::function<void(const std::function<void(SphereRun)>&)>;
 
+/// Whether a material of the scene is a Ghost.
+bool may_have_ghosts(const Scene& scene);
+
 /// The groups that are shown, if sharing their spheres saves much memory over expanding them;
-/// otherwise std::nullopt, and the scene is for expand_instances(). The picture is the same either
-/// way. Throws std::bad_alloc.
+/// otherwise, and beside ghosts, std::nullopt, and the scene is for expand_instances(). The picture
+/// is the same either way. Throws std::bad_alloc.
 std::optional<std::vector<ShownGroup>> groups_to_share(const Scene& scene);
 
 /// The same for a valid scene, whose groups then hold only spheres; otherwise expands the scene.

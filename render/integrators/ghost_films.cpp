@@ -11,7 +11,8 @@ void GhostFilms::find(const RayStream& rays, const Query& query, const HitStream
                       const Fog& fog) {
   films_.assign(rays.size, {});
   hits_.resize(rays.size);
-  search_.closest_hit(rays, query, hits_.view());
+  const Query own{query.solver, query.form, query.coherence, &experience_};
+  search_.closest_hit(rays, own, hits_.view());
   const HitStream met = search_.surfaces(hits_.view(), caps_);
   for (std::size_t k = 0; k < rays.size; ++k) {
     const Hit hit = hits_.get(k);
@@ -22,8 +23,8 @@ void GhostFilms::find(const RayStream& rays, const Query& query, const HitStream
 
 void GhostFilms::add(Color* radiance) const {
   for (std::size_t k = 0; k < films_.size(); ++k) {
-    const auto& [share, color] = films_[k];
-    if (share > 0) radiance[k] = radiance[k] * (1 - share) + color * share;
+    const Film& film = films_[k];
+    if (film.share > 0) radiance[k] = radiance[k] * (1 - film.share) + film.color * film.share;
   }
 }
 
@@ -36,9 +37,9 @@ GhostFilms::Film GhostFilms::film_of(const Ray& ray, const Hit& hit, const Hit& 
   const Ghost& ghost = std::get<Ghost>(ghosts.plain_materials[ref.index()]);
   const auto cosine = static_cast<float>(surface.cosine);
   const float slant = ghost.opacity + (1 - ghost.opacity) * cosine;
-  Film film{slant > 0 ? std::min(ghost.opacity / slant, 1.0F) : 0,
-            ref.has_color() ? linear_of(ref.color()) : ghost.color};
   const float veil = fog.strength > 0 ? fog.share(depth_of(scene_.camera_view, surface.point)) : 0;
+  Film film{slant > 0 ? std::min(ghost.opacity / slant, 1.0F) : 0, veil,
+            ref.has_color() ? linear_of(ref.color()) : ghost.color};
   if (veil > 0)
     film.color =
         film.color * (1 - veil) + seen_behind(scene_.background, scene_.backdrop, ray.dir) * veil;

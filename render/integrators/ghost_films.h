@@ -29,12 +29,16 @@ class GhostFilms {
   /// Puts the films before what each ray found.
   void add(Color* radiance) const;
 
-  /// The share of what is seen that is the film's.
-  [[nodiscard]] float share(std::size_t ray) const { return films_[ray].share; }
+  /// The coverage of what is seen, of which `behind` is covered where there is no film.
+  [[nodiscard]] float coverage(std::size_t ray, float behind) const {
+    const Film& film = films_[ray];
+    return film.share * (1 - film.veil) + (1 - film.share) * behind;
+  }
 
  private:
   struct Film {
-    float share = 0;
+    float share = 0;  ///< of what is seen
+    float veil = 0;   ///< the share of fog in its colour
     Color color;
   };
 
@@ -42,6 +46,7 @@ class GhostFilms {
 
   const PreparedScene& scene_;
   SceneSearch search_;
+  Experience experience_;
   HitBuffer hits_, caps_;
   std::vector<Film> films_;  ///< by camera ray
 };

@@ -133,7 +133,7 @@ void StreamIntegrator::tell_coverage(std::uint8_t* covered) const {
   const bool has_fog = settings_.fog.strength > 0;
   for (std::size_t k = 0; k < hits_.size(); ++k) {
     float seen = hit(k).id == no_primitive ? 0 : has_fog ? 1 - veils_[k].share : 1;
-    if (ghosts_) seen = 1 - (1 - ghosts_->share(k)) * (1 - seen);
+    if (ghosts_) seen = ghosts_->coverage(k, seen);
     covered[k] = static_cast<std::uint8_t>(seen * float{whole_coverage} + 0.5F);
   }
 }

@@ -42,10 +42,6 @@ Status check_kinds(const Scene& scene) {
 
 }  // namespace
 
-bool may_have_ghosts(const Scene& scene) {
-  return std::any_of(scene.materials.begin(), scene.materials.end(), is_ghost);
-}
-
 Result<Ghosts> take_ghosts(Scene& scene, Scene& ghosts) {
   if (auto done = check_kinds(scene); !done) return done.error();
   Ghosts taken;

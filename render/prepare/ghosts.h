@@ -22,10 +22,6 @@ struct Ghosts {
   std::uint32_t spheres = 0;               ///< of the scene, with ghosts
 };
 
-/// Whether a material of the scene is a Ghost. Its instances are then to be expanded, before
-/// take_ghosts().
-bool may_have_ghosts(const Scene& scene);
-
 /// Moves the ghosts out of a valid scene without instances into `ghosts`, and their places out of
 /// outline_groups. Returns all but Ghosts::scene. An error if a plane or packed spheres are ghosts.
 /// Throws std::bad_alloc.

@@ -100,13 +100,6 @@ std::vector<Sphere> emissive_spheres(const Scene& scene) {
   return emissive;
 }
 
-/// Ghosts are primitives of their own.
-std::optional<std::vector<ShownGroup>> expand(Scene& scene) {
-  if (!may_have_ghosts(scene)) return share_or_expand(scene);
-  expand_instances(scene);
-  return std::nullopt;
-}
-
 /// Of spheres that shine and are cut.
 constexpr const char* cut_light_note =
     "spheres that shine and are cut by a clip plane are no lights to sample: paths find their "
@@ -223,7 +216,7 @@ Status settle_camera(Scene& scene, int width, int height, const ParallelFor& par
   if (auto done = check_size(width, height); !done) return done;
   if (auto done = validate_in_parallel(scene, parallel_for); !done) return done;
   if (scene.camera) return {};
-  expand(scene);
+  share_or_expand(scene);
   std::vector<std::string> notes;
   return add_camera(scene, width, height, parallel_for, notes);
 }
@@ -233,7 +226,7 @@ Result<PreparedScene> prepare(Scene scene, int width, int height, const Parallel
   const FloatEnvironment floats;
   if (auto done = check_size(width, height); !done) return done.error();
   if (auto done = validate_in_parallel(scene, parallel_for); !done) return done.error();
-  const auto groups = expand(scene);
+  const auto groups = share_or_expand(scene);
   std::vector<std::string> notes;
   if (auto done = add_camera(scene, width, height, parallel_for, notes); !done) return done.error();
   const bool lit_by_default = lacks_light(scene, method);

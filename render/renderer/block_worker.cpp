@@ -120,9 +120,10 @@ bool BlockWorker::measure_part(const PixelRect& rect, Part& part, MeasuredPictur
 /// pixel.
 template <class Target>
 bool BlockWorker::add_bare(Target& target, int x, int y, int first, int end) const {
-  if (!setup_.bare_pixels.is_bare(x, y)) return false;
+  if (!setup_.bare_pixels.is_bare(NoiseBlock::column(x), y)) return false;
+  const std::uint8_t covered = setup_.alpha == Alpha::none ? whole_coverage : 0;
   for (int sample = first; sample < end; ++sample)
-    add(target, {x, y, sample}, setup_.bare_color, 0);
+    add(target, {x, y, sample}, setup_.bare_color, covered);
   return true;
 }
 

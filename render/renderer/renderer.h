@@ -94,10 +94,10 @@ class Renderer {
   Result<std::vector<ImageChannel>> render_aovs();
 
   /// The rays of the recursion through the centre of pixel (x, y), and of the lens: Whitted's,
-  /// whatever the method. Returns the weight that the camera gives the sample: the picture with one
-  /// sample has the record's total times this weight. 0: there is no ray, and the record is empty.
-  /// An error if there are too many rays, or not enough memory. Preconditions: the pixel lies in
-  /// the frame; the scene was prepared for Method::whitted.
+  /// whatever the method, without ghosts and fog. Returns the weight that the camera gives the
+  /// sample: the picture with one sample has the record's total times this weight. 0: there is no
+  /// ray, and the record is empty. An error if there are too many rays, or not enough memory.
+  /// Preconditions: the pixel lies in the frame; the scene was prepared for Method::whitted.
   Result<float> record_pixel(int x, int y, RayRecord& record) const;
 
   /// The lines that options.outline asks for. render() draws them itself; for a picture of a film,

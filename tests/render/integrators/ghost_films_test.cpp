@@ -158,6 +158,28 @@ TEST_P(GhostPictures, AddTheirShareToAlpha) {
   EXPECT_NEAR(picture.at(4, 4).r, 0.125F, 1e-4);
 }
 
+/// A picture over its background is the one with that background.
+TEST_P(GhostPictures, FadeInFogOfTransparentPictures) {
+  Scene scene = empty_scene(9, 9);
+  scene.render.method = GetParam();
+  scene.spheres = {{{0, 0, 0}, 1, add_material(scene, Ghost{{0.5F, 1, 0}, 0.25F})},
+                   {{0, 0, -4}, 0.1F, 0}};
+  scene.camera = pinhole({0, 0, 4}, {0, 0, 0}, 1);
+  const Color sky{0.4F, 0.2F, 0.6F};
+  scene.background = ConstantBackground{{}};
+  scene.backdrop = sky;
+  scene.image.fog = 1;
+  scene.image.fog_from = 2;
+  scene.image.fog_to = 5;
+  const Image over_sky = render(scene);
+  scene.image.transparent = true;
+  const Image picture = render(scene);
+  const float left = 1 - picture.alpha[40];
+  EXPECT_GT(left, 0.8F);
+  EXPECT_NEAR(picture.at(4, 4).r + left * sky.r, over_sky.at(4, 4).r, 0.002);
+  EXPECT_NEAR(picture.at(4, 4).b + left * sky.b, over_sky.at(4, 4).b, 0.002);
+}
+
 INSTANTIATE_TEST_SUITE_P(Methods, GhostPictures, testing::Values(Method::whitted, Method::path));
 
 /// Ids count ghosts; all else is as without them.

@@ -12,6 +12,7 @@
 #include "render/prepare/prepared_scene.h"
 #include "render/renderer/bare_pixels.h"
 #include "tests/render/picture_comparison.h"
+#include "tests/render/renderer/measured_pictures.h"
 #include "tests/support/capsule_scene.h"
 #include "tests/support/case_random.h"
 
@@ -151,7 +152,8 @@ TEST(BarePixels, PictureIsThatOfAllRays) {
   };
   for (const auto& [method, aa, noise, outline, transparent] :
        {Case{Method::whitted, 0, 0, 0, false}, Case{Method::whitted, 8, 0, 1, true},
-        Case{Method::path, 0, 0, 2, true}, Case{Method::path, 0, 0.1F, 0, false}}) {
+        Case{Method::whitted, 8, 0, 0, false}, Case{Method::path, 0, 0, 2, true},
+        Case{Method::path, 0, 0.1F, 0, false}}) {
     Scene scene = capsule_scene(width, height);
     scene.planes.clear();
     scene.spheres.push_back({{4, 3, 0}, 0.7F, add_material(scene, Ghost{})});
@@ -168,11 +170,19 @@ TEST(BarePixels, PictureIsThatOfAllRays) {
     scene.background = ConstantBackground{{0, 0, 0}};
     Renderer renderer = Renderer::create(scene, options).value();
     const Image picture = renderer.render().value();
+    const bool is_measured = aa > 0 || noise > 0;
+    const std::uint64_t samples = is_measured ? hash_of(measured(scene, options)) : 0;
+    RenderOptions cropped = options;
+    cropped.crop = PixelRect{5, 9, 43, 31};
+    const PixelRect part{6, 10, 42, 30};
+    if (is_measured)
+      EXPECT_EQ(hash_of(measured(scene, cropped), part), hash_of(measured(scene, options), part));
     scene.planes = {{{0, -80, 80}, {0, 0.8F, -0.6F}, add_material(scene, Matte{{0, 0, 0}})}};
     Renderer every_ray = Renderer::create(scene, options).value();
     const Image expected = every_ray.render().value();
     EXPECT_EQ(differing_pixels(picture, expected), 0);
     EXPECT_EQ(picture.alpha, expected.alpha);
+    EXPECT_EQ(samples, is_measured ? hash_of(measured(scene, options)) : 0);
     EXPECT_LT(static_cast<double>(renderer.statistics().rays.primary),
               0.8 * static_cast<double>(every_ray.statistics().rays.primary));
   }

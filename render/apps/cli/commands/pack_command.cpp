@@ -23,7 +23,6 @@
 #include "render/files/scene_file/npy/npy_source.h"
 #include "render/frame/scheduler.h"
 #include "render/memory/available_memory.h"
-#include "render/prepare/ghosts.h"
 
 namespace boule::cli {
 namespace {

@@ -1,9 +1,12 @@
 #include <spawn.h>
 #include <sys/wait.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "render/apps/cli/commands/commands.h"
@@ -66,9 +69,14 @@ void tell_tunnel(const std::string& url, const std::string& socket) {
   const std::string port = url.substr(digits, url.find('/', digits) - digits);
   const std::string far =
       socket.empty() ? host + port : std::filesystem::absolute(socket).lexically_normal().string();
+  const std::string way = port + ":" + far;
+  const bool is_plain = std::all_of(way.begin(), way.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 ||
+           std::string_view("/._-:").find(static_cast<char>(c)) != std::string_view::npos;
+  });
   print_note("boule: note: to open it on the machine that you came from, run there: ssh -N -L " +
-             port + ":" + printable(far) + (server_port == "22" ? "" : " -p " + server_port) + " " +
-             printable(server));
+             printable(is_plain ? way : shell_word(way)) +
+             (server_port == "22" ? "" : " -p " + server_port) + " " + printable(server));
 }
 
 ExitCode serve(const ViewCommand& command, view::WebServer& server, view::ViewSession& session,

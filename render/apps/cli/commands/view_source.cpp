@@ -21,12 +21,6 @@ const char* kind_of(const std::string& path, bool particles) {
   return path.ends_with(".npy") ? "spheres" : "toml";
 }
 
-std::string shell_word(const std::string& text) {
-  std::string all = "'";
-  for (const char c : text) all += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return all + "'";
-}
-
 std::string vector_text(const Vec3d& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
 
 /// The options of particles that the page does not change.
@@ -48,6 +42,12 @@ std::string fixed_options(const LookOptions& look) {
 }
 
 }  // namespace
+
+std::string shell_word(const std::string& text) {
+  std::string all = "'";
+  for (const char c : text) all += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return all + "'";
+}
 
 ViewSource::ViewSource(const RenderJob& job) : job_(job), scheduler_(job.threads) {
   facts_.path = job.scene;

@@ -44,4 +44,7 @@ class ViewSource final : public view::SceneSource {
   std::optional<ParticleFacts> particles_;  ///< of the frame that was read
 };
 
+/// The text as one word of a shell.
+std::string shell_word(const std::string& text);
+
 }  // namespace boule::cli

@@ -27,7 +27,8 @@ Result<DumpPlaces> find_binary_frames(std::string_view bytes) {
     const auto head = read_binary_dump_head(bytes, at);
     const auto end =
         head ? skip_chunks(bytes, head.value(), nullptr) : Result<std::size_t>(head.error());
-    if (!end && !found.frames.empty()) {
+    const bool is_cut = !end && end.error().message.find(cut_short) != std::string::npos;
+    if (is_cut && !found.frames.empty()) {
       found.whole = end.error();
       break;
     }

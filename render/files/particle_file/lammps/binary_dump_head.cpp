@@ -58,7 +58,7 @@ class DumpBytes {
   /// An error about what was taken last.
   [[nodiscard]] Diagnostic wrong(const std::string& message, std::string key = {}) const {
     if (!ended_) return error_at_byte(last_, message, std::move(key));
-    return error_at_byte(last_, "the file ends in the head of a frame");
+    return error_at_byte(last_, std::string(cut_short) + " the head of a frame");
   }
 
  private:
@@ -234,7 +234,7 @@ Result<std::size_t> skip_chunks(std::string_view bytes, const BinaryDumpHead& he
   std::uint64_t rows = 0;
   for (std::uint32_t chunk = 0; chunk < head.chunks; ++chunk) {
     const auto ends = [&] {
-      return error_at_byte(at, "the file ends in the particles of a frame");
+      return error_at_byte(at, std::string(cut_short) + " the particles of a frame");
     };
     if (bytes.size() - at < 4) return ends();
     const auto numbers = load_number<std::int32_t>(bytes.data() + at, head.is_big_endian);

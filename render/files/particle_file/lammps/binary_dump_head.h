@@ -33,6 +33,9 @@ struct BinaryDumpChunk {
   std::uint64_t rows;
 };
 
+/// What errors about a file that ends too early say.
+inline constexpr std::string_view cut_short = "the file ends in";
+
 /// Goes through a frame's chunks, which hold as many particles as its head says, and returns where
 /// the frame ends. `chunks`, if it is not null, gets their particles, in pieces of a size to share.
 Result<std::size_t> skip_chunks(std::string_view bytes, const BinaryDumpHead& head,

@@ -212,6 +212,16 @@ TEST(BinaryDump, FramesBeforeACutAreRead) {
   }
 }
 
+/// What is broken, but not cut off, is no end of the file.
+TEST(BinaryDump, DamageBetweenFramesIsAnError) {
+  const std::string one = Frame().bytes();
+  std::string three = one + one + one;
+  for (std::size_t byte = one.size() + 16; byte < one.size() + 24; ++byte) three[byte] = '\x7f';
+  const auto found = read_particles("run.bin", three, {}, 0);
+  ASSERT_FALSE(found.ok());
+  EXPECT_THAT(format_diagnostic(found.error()), Not(HasSubstr("the file ends in")));
+}
+
 TEST(BinaryDump, ManyRowsAreReadInPieces) {
   Frame written;
   written.atoms = 200000;
