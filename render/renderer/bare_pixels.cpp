@@ -73,6 +73,19 @@ class FilmAxis {
   Extent seen_{};
 };
 
+/// What the camera's rays see where they miss everything, if that is one colour.
+std::optional<Color> color_of_misses(const PreparedScene& scene) {
+  if (scene.backdrop) return scene.backdrop;
+  const auto* constant = std::get_if<ConstantBackground>(&scene.background);
+  return constant != nullptr ? std::optional(constant->color) : std::nullopt;
+}
+
+/// Whether FilmAxis has the formulas of a camera.
+bool is_plain(const CameraView& camera) {
+  return (camera.kind == CameraKind::pinhole || camera.kind == CameraKind::orthographic) &&
+         !camera.weighs && camera.distortion.st == nullptr;
+}
+
 /// So far from a pixel's middle samples lie, and a little for rounding.
 constexpr double reach = 2;
 
@@ -154,17 +167,17 @@ class BarePixels::Counter {
 BarePixels::BarePixels(const PreparedScene& scene, const PixelRect& rect,
                        const ParallelFor& parallel_for)
     : rect_(rect) {
-  const CameraView& camera = scene.camera_view;
-  const bool is_plain =
-      camera.kind == CameraKind::pinhole || camera.kind == CameraKind::orthographic;
-  if (!is_plain || camera.weighs || camera.distortion.st != nullptr || rect.empty()) return;
+  const auto color = color_of_misses(scene);
+  const bool has_planes = scene.planes.size() > scene.clips;
+  if (!color || has_planes || !is_plain(scene.camera_view) || rect.empty()) return;
+  color_ = *color;
   while (rect.area() >> (2 * halvings_) > most_cells) ++halvings_;
   const int side = 1 << halvings_;
   columns_ = (rect.width() + side - 1) / side;
   rows_ = (rect.height() + side - 1) / side;
   counts_.assign((static_cast<std::size_t>(columns_) + 1) * (static_cast<std::size_t>(rows_) + 1),
                  0);
-  Counter counter(*this, camera);
+  Counter counter(*this, scene.camera_view);
   visit_primitives(scene, parallel_for,
                    [&counter](const auto& primitive) { counter.add(primitive); });
   sum_up();

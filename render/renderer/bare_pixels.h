@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/parallel.h"
+#include "core/math/color.h"
 #include "render/frame/pixel_rect.h"
 
 namespace boule {
@@ -19,7 +20,8 @@ class BarePixels {
   /// None is known.
   BarePixels() = default;
   /// Of the frame's pixels in `rect`. None is known unless the camera is a pinhole or an
-  /// orthographic one without distortion. Throws std::bad_alloc, and the exceptions of
+  /// orthographic one without distortion, the scene has no planes, and all rays that miss see one
+  /// colour. Throws std::bad_alloc, and the exceptions of
   /// `parallel_for`.
   BarePixels(const PreparedScene& scene, const PixelRect& rect, const ParallelFor& parallel_for);
 
@@ -30,6 +32,9 @@ class BarePixels {
     return counts_[index((x - rect_.x0) >> halvings_, (y - rect_.y0) >> halvings_)] == 0;
   }
 
+  /// What is seen through them.
+  [[nodiscard]] const Color& color() const { return color_; }
+
  private:
   class Counter;
 
@@ -39,6 +44,7 @@ class BarePixels {
   }
   void sum_up();
 
+  Color color_;
   PixelRect rect_;
   int halvings_ = 0;  ///< a cell has 2^halvings_ pixels a side
   int columns_ = 0, rows_ = 0;

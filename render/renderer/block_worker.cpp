@@ -123,7 +123,7 @@ bool BlockWorker::add_bare(Target& target, int x, int y, int first, int end) con
   if (!setup_.bare_pixels.is_bare(NoiseBlock::column(x), y)) return false;
   const std::uint8_t covered = setup_.alpha == Alpha::none ? whole_coverage : 0;
   for (int sample = first; sample < end; ++sample)
-    add(target, {x, y, sample}, setup_.bare_color, covered);
+    add(target, {x, y, sample}, setup_.bare_pixels.color(), covered);
   return true;
 }
 

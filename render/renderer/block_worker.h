@@ -35,7 +35,6 @@ struct BlockSetup {
   EdgeTarget edges{};
   SmallSpheres small_spheres{};  ///< with edges
   BarePixels bare_pixels{};      ///< they need no ray
-  Color bare_color{};            ///< what is seen there
   LiveProgress* live = nullptr;  ///< counts pixels whose noise was measured; null: off
 };
 

@@ -27,21 +27,12 @@ std::size_t largest_stream(const RenderOptions& options, std::size_t spheres) {
   return std::min(fitting, tile * tile * static_cast<std::size_t>(options.spp));
 }
 
-/// What the camera's rays see where they miss everything, if that is one colour.
-std::optional<Color> color_of_misses(const PreparedScene& scene) {
-  if (scene.backdrop) return scene.backdrop;
-  const auto* constant = std::get_if<ConstantBackground>(&scene.background);
-  return constant != nullptr ? std::optional(constant->color) : std::nullopt;
-}
-
-/// Whether the rays that bare pixels save cost more than finding these pixels.
+/// Whether finding bare pixels costs less than the rays that they may save.
 bool bare_pixels_pay(const RenderOptions& options, const PreparedScene& scene) {
   constexpr double most_primitives_a_sample = 1 / 16.0;
   const double samples = options.aa > 0 ? 1 : options.noise > 0 ? options.min_spp : options.spp;
-  const bool has_planes = scene.planes.size() > scene.clips;
-  return !has_planes && color_of_misses(scene) &&
-         scene.geometry.sphere_count() + scene.of_capsules.size() <
-             most_primitives_a_sample * samples * rendered_rect(options).area();
+  const std::size_t primitives = scene.geometry.sphere_count() + scene.of_capsules.size();
+  return primitives < most_primitives_a_sample * samples * rendered_rect(options).area();
 }
 
 }  // namespace
@@ -56,8 +47,7 @@ Renderer::Renderer(const RenderOptions& options, std::shared_ptr<const PreparedS
           *scene_, kernels, Sampler(options.spp, options.seed, options.filter),
           block_pixels(options.tile), largest_stream(options, scene_->geometry.sphere_count()),
           alpha_of(options), PixelRect{0, 0, options.width, options.height}, noise_target(options),
-          edge_target(options), std::move(small_spheres), std::move(bare_pixels),
-          color_of_misses(*scene_).value_or(Color{}), options.live})),
+          edge_target(options), std::move(small_spheres), std::move(bare_pixels), options.live})),
       blocks_(rendered_rect(options), options.tile, options.order),
       scheduler_(options.threads),
       workers_(scheduler_.workers()) {}
