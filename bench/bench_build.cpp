@@ -6,8 +6,6 @@
 // The clocks run over what a renderer waits for: of Boule the making of a Geometry that takes the
 // caller's spheres, as Renderer::create() does, of Embree rtcCommitScene() for a geometry that
 // shares the caller's buffer. Both have threads that wait for work.
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/peers/embree/embree_version.h"
 #include "bench/scenes/uniform_spheres.h"
 #include "bench/tools/median.h"
 #include "bench/tools/wall_seconds.h"

@@ -2,14 +2,12 @@
 // Embree's rtcIntersect1 and rtcOccluded1 on its built-in spheres, interleaved in one run: the
 // least thread CPU time of all repetitions.
 //
-//   bench_single [scene...]
+//   bench_queries [scene...]
 //
 // The rays are chords from one random point of the sphere around a scene to another, so that no ray
 // has anything in common with the one before it. Embree answers in float, without a normal of the
 // surface that the ray meets where it leaves the sphere; how many of its answers are others is
 // printed.
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -19,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/peers/embree/embree_version.h"
 #include "bench/scenes/bench_scenes.h"
 #include "bench/scenes/ray_kinds.h"
 #include "bench/tools/thread_seconds.h"
@@ -44,7 +43,7 @@ struct EmbreeCrossings {
 
 /// The context of a ray that collects.
 struct CollectingContext {
-  RTCIntersectContext embree;  // first: Embree knows its address
+  EmbreeContext embree;  // first: Embree knows its address
   std::vector<EmbreeCrossings::Crossing>* to;
 };
 
@@ -81,17 +80,17 @@ class EmbreeSpheres {
   EmbreeSpheres& operator=(const EmbreeSpheres&) = delete;
 
   [[nodiscard]] unsigned closest(const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    return intersect(ray, context);
+    EmbreeContext context;
+    EmbreeQuery asked(context);
+    return intersect(ray, asked);
   }
   /// Precondition: the filter is collect().
   [[nodiscard]] EmbreeCrossings all_hits(const std::vector<Ray>& rays) const {
     EmbreeCrossings found;
     CollectingContext context{{}, &found.all};
-    rtcInitIntersectContext(&context.embree);
+    EmbreeQuery asked(context.embree);
     for (const Ray& ray : rays) {
-      intersect(ray, context.embree);
+      intersect(ray, asked);
       std::sort(found.all.begin() + static_cast<std::ptrdiff_t>(found.offset.back()),
                 found.all.end(), [](const auto& a, const auto& b) {
                   return std::tuple(a.t, a.id, !a.entering) < std::tuple(b.t, b.id, !b.entering);
@@ -101,21 +100,20 @@ class EmbreeSpheres {
     return found;
   }
   [[nodiscard]] bool any(const Ray& ray) const {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    EmbreeContext context;
     RTCRay query{};
     set(ray, query);
-    rtcOccluded1(scene_, &context, &query);
+    EmbreeQuery(context).occluded(scene_, query);
     return query.tfar < 0;
   }
 
  private:
-  unsigned intersect(const Ray& ray, RTCIntersectContext& context) const {
+  unsigned intersect(const Ray& ray, EmbreeQuery& asked) const {
     RTCRayHit query{};
     set(ray, query.ray);
     query.hit.geomID = query.hit.primID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(scene_, &context, &query);
+    asked.intersect(scene_, query);
     return query.hit.primID;
   }
   static void set(const Ray& ray, RTCRay& to) {

@@ -1,11 +1,11 @@
 #include "bench/errors/embree_curves.h"
 
-#ifdef BOULE_HAS_EMBREE
-
-#include <embree3/rtcore.h>
+#ifdef BOULE_EMBREE
 
 #include <cmath>
 #include <limits>
+
+#include "bench/peers/embree/embree_version.h"
 
 namespace boule::bench {
 namespace {
@@ -38,12 +38,11 @@ double solve(RTCScene scene, const Ray& ray) {
   const bool valid =
       std::fmax(std::fmax(std::fabs(org.x), std::fabs(org.y)), std::fabs(org.z)) <= largest;
   if (!valid) return std::numeric_limits<double>::quiet_NaN();
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
+  EmbreeContext context;
   RTCRayHit one{};
   one.ray = {org.x, org.y, org.z, 0, ray.dir.x, ray.dir.y, ray.dir.z, 0, inf, ~0U, 0, 0};
   one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(scene, &context, &one);
+  EmbreeQuery(context).intersect(scene, one);
   return one.hit.geomID == RTC_INVALID_GEOMETRY_ID ? double{inf} : double{one.ray.tfar};
 }
 

@@ -53,7 +53,7 @@ TEST(Peers, AnswerEveryKindOfRays) {
   }
   for (const char* rays :
        {"primary", "shadow", "mirror", "diffuse", "light", "ambient", "orthographic", "chord"}) {
-    for (const char* name : {"embree-avx2-builtin-1M", "embree-avx2-user-16", "boule-avx2"}) {
+    for (const char* name : {"embree-avx2-builtin-8", "embree-avx2-user-16", "boule-avx2"}) {
       EXPECT_THAT(contenders, testing::Contains(std::string(rays) + " " + name));
     }
   }

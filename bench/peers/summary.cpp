@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "bench/peers/embree/embree_peer.h"
 #include "bench/tools/median.h"
 
 namespace boule::bench {
@@ -75,8 +76,8 @@ class Ratios {
 
 void print_summary(const Results& results, const RefereeSettings& settings) {
   for (const std::string& isa : settings.isas) {
-    std::printf("\nboule-%s, ratio to the best of Embree's modes%s\n", isa.c_str(),
-                is_limited(settings, isa) ? " limited to AVX2" : "");
+    std::printf("\nboule-%s, ratio to the best of Embree %s's modes%s\n", isa.c_str(),
+                embree_version().c_str(), is_limited(settings, isa) ? " limited to AVX2" : "");
     Ratios(results, settings, isa).print();
   }
 }

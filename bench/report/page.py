@@ -194,5 +194,5 @@ def page(report, charts):
         pictures=pictures(report), growth=figures("growth"), path_size="{} x {}".format(*report["path_size"]),
         paths=figures("paths") + path_table(report), noise=figures("noise") + noise_table(report),
         edges=(figures("edges") + edge_table(report)) or "<p>They were not measured.</p>",
-        embree=html.escape(f"Embree {peers['embree']}") if peers else "This build found no Embree 3 (libembree-dev)",
+        embree=html.escape(f"Embree {peers['embree']}") if peers else "This build found no Embree (libembree-dev)",
         peers=peer_table(peers["rows"]) if peers else "")

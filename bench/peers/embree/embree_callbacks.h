@@ -1,6 +1,6 @@
 #pragma once
 
-#include <embree3/rtcore.h>
+#include "bench/peers/embree/embree_version.h"
 
 namespace boule::bench {
 

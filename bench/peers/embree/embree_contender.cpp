@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t tnear_field = 3, dir_field = 4, time_field = 7, tfar_field = 8;
 constexpr std::size_t mask_field = 9, id_field = 10, flags_field = 11;
 constexpr std::size_t ray_fields = 12, prim_id_field = 17, geom_id_field = 18;
-constexpr std::size_t instance_field = 19, ray_hit_fields = 20;
+constexpr std::size_t instance_field = 19;
 
 constexpr float all_bits = std::bit_cast<float>(RTC_INVALID_GEOMETRY_ID);
 constexpr float secondary_start = 1e-5F;
@@ -36,6 +36,11 @@ std::size_t group_of(EmbreeCall call) {
   return 1;
 }
 
+/// Of a structure for so many rays, padding included; most for one ray.
+constexpr std::size_t ray_hit_fields(std::size_t group) {
+  return (group == 1 ? sizeof(RTCRayHit) : sizeof(RTCRayHit16) / 16) / sizeof(float);
+}
+
 /// Denormals are zero while it lives, as Embree recommends.
 class FlushDenormals {
  public:
@@ -50,46 +55,43 @@ class FlushDenormals {
 
 struct Call {
   RTCScene scene;
-  RTCIntersectContext* context;
+  EmbreeQuery& query;
   float* rays;
   unsigned count;  ///< rays, of a stream
 };
 
-alignas(64) constexpr int all_valid[16] = {-1, -1, -1, -1, -1, -1, -1, -1,
-                                           -1, -1, -1, -1, -1, -1, -1, -1};
-
 template <class Rays>
-Rays* as(float* rays) {
-  return reinterpret_cast<Rays*>(rays);
+Rays& as(float* rays) {
+  return *reinterpret_cast<Rays*>(rays);
 }
 
 void intersect(EmbreeCall kind, const Call& c) {
   switch (kind) {
     case EmbreeCall::rays1:
-      return rtcIntersect1(c.scene, c.context, as<RTCRayHit>(c.rays));
+      return c.query.intersect(c.scene, as<RTCRayHit>(c.rays));
     case EmbreeCall::rays4:
-      return rtcIntersect4(all_valid, c.scene, c.context, as<RTCRayHit4>(c.rays));
+      return c.query.intersect(rtcIntersect4, c.scene, as<RTCRayHit4>(c.rays));
     case EmbreeCall::rays8:
-      return rtcIntersect8(all_valid, c.scene, c.context, as<RTCRayHit8>(c.rays));
+      return c.query.intersect(rtcIntersect8, c.scene, as<RTCRayHit8>(c.rays));
     case EmbreeCall::rays16:
-      return rtcIntersect16(all_valid, c.scene, c.context, as<RTCRayHit16>(c.rays));
+      return c.query.intersect(rtcIntersect16, c.scene, as<RTCRayHit16>(c.rays));
     case EmbreeCall::stream:
-      return rtcIntersect1M(c.scene, c.context, as<RTCRayHit>(c.rays), c.count, sizeof(RTCRayHit));
+      return c.query.intersect_stream(c.scene, &as<RTCRayHit>(c.rays), c.count);
   }
 }
 
 void occluded(EmbreeCall kind, const Call& c) {
   switch (kind) {
     case EmbreeCall::rays1:
-      return rtcOccluded1(c.scene, c.context, as<RTCRay>(c.rays));
+      return c.query.occluded(c.scene, as<RTCRay>(c.rays));
     case EmbreeCall::rays4:
-      return rtcOccluded4(all_valid, c.scene, c.context, as<RTCRay4>(c.rays));
+      return c.query.occluded(rtcOccluded4, c.scene, as<RTCRay4>(c.rays));
     case EmbreeCall::rays8:
-      return rtcOccluded8(all_valid, c.scene, c.context, as<RTCRay8>(c.rays));
+      return c.query.occluded(rtcOccluded8, c.scene, as<RTCRay8>(c.rays));
     case EmbreeCall::rays16:
-      return rtcOccluded16(all_valid, c.scene, c.context, as<RTCRay16>(c.rays));
+      return c.query.occluded(rtcOccluded16, c.scene, as<RTCRay16>(c.rays));
     case EmbreeCall::stream:
-      return rtcOccluded1M(c.scene, c.context, as<RTCRay>(c.rays), c.count, sizeof(RTCRay));
+      return c.query.occluded_stream(c.scene, &as<RTCRay>(c.rays), c.count);
   }
 }
 
@@ -110,15 +112,14 @@ double ray_t(const Ray& ray, double embree_t) {
 }
 
 EmbreeContender::EmbreeContender(Info info, const Workload& workload, RTCScene scene,
-                                 EmbreeCall call, RTCIntersectContextFlags coherence,
-                                 AlignedArray<float>& memory)
+                                 EmbreeCall call, EmbreeHint hint, AlignedArray<float>& memory)
     : Contender(std::move(info)),
       workload_(workload),
       scene_(scene),
       call_(call),
-      coherence_(coherence),
+      hint_(hint),
       group_(group_of(call)),
-      fields_(asks_any(workload.kind) ? ray_fields : ray_hit_fields),
+      fields_(asks_any(workload.kind) ? ray_fields : ray_hit_fields(group_)),
       memory_(memory) {}
 
 void EmbreeContender::put(std::size_t i, const Ray& ray) {
@@ -144,7 +145,7 @@ void EmbreeContender::put(std::size_t i, const Ray& ray) {
 /// The last structure is filled with copies of the last ray.
 void EmbreeContender::prepare() {
   const std::size_t size = workload_.rays->size();
-  memory_.resize(padded(size) * ray_hit_fields);
+  memory_.resize(padded(size) * ray_hit_fields(1));
   for (std::size_t i = 0; i < padded(size); ++i) {
     put(i, workload_.rays->get(std::min(i, size - 1)));
   }
@@ -152,14 +153,13 @@ void EmbreeContender::prepare() {
 
 void EmbreeContender::trace(std::size_t first, std::size_t last) {
   const FlushDenormals flush;
-  RTCIntersectContext context;
-  rtcInitIntersectContext(&context);
-  context.flags = coherence_;
+  EmbreeContext context;
+  EmbreeQuery query(context, hint_);
   const std::size_t step = call_ == EmbreeCall::stream ? embree_stream_size : group_;
   const bool any = asks_any(workload_.kind);
   for (; first < last; first += step) {
     const auto count = static_cast<unsigned>(std::min(step, last - first));
-    const Call call = {scene_, &context, memory_.data() + first * fields_, count};
+    const Call call = {scene_, query, memory_.data() + first * fields_, count};
     any ? occluded(call_, call) : intersect(call_, call);
   }
 }

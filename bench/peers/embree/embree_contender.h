@@ -1,13 +1,12 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include "bench/peers/contender.h"
+#include "bench/peers/embree/embree_version.h"
 #include "simd/stream/aligned_array.h"
 
 namespace boule::bench {
 
-/// The rays per call to Embree, or a stream of single rays.
+/// The rays per call to Embree, or a stream of single rays (embree_has_streams).
 enum class EmbreeCall { rays1, rays4, rays8, rays16, stream };
 
 /// Rays of one stream: 80 KiB, in the second-level cache.
@@ -17,7 +16,7 @@ class EmbreeContender final : public Contender {
  public:
   /// `memory` is shared with other contenders: it holds the rays of the last one to prepare.
   EmbreeContender(Info info, const Workload& workload, RTCScene scene, EmbreeCall call,
-                  RTCIntersectContextFlags coherence, AlignedArray<float>& memory);
+                  EmbreeHint hint, AlignedArray<float>& memory);
 
   void prepare() override;
   void trace(std::size_t first, std::size_t last) override;
@@ -33,9 +32,9 @@ class EmbreeContender final : public Contender {
   Workload workload_;
   RTCScene scene_;
   EmbreeCall call_;
-  RTCIntersectContextFlags coherence_;
+  EmbreeHint hint_;
   std::size_t group_;   ///< rays in one structure
-  std::size_t fields_;  ///< 12 of a ray, and for the nearest hit 8 of a hit
+  std::size_t fields_;  ///< 12 of a ray, and for the nearest hit those of a hit
   AlignedArray<float>& memory_;
 };
 

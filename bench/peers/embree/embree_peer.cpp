@@ -39,13 +39,13 @@ constexpr Mode modes[] = {{"1", EmbreeCall::rays1, 1},
 /// The hint about coherence that Embree gets.
 struct Flag {
   const char* suffix;
-  RTCIntersectContextFlags coherence;
+  EmbreeHint hint;
 };
 
 /// Which of the two is better depends on the scene.
 std::vector<Flag> flags_for(RayKind kind) {
-  const Flag coherent = {"", RTC_INTERSECT_CONTEXT_FLAG_COHERENT};
-  const Flag incoherent = {"", RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT};
+  const Flag coherent = {"", embree_coherent};
+  const Flag incoherent = {"", embree_incoherent};
   switch (kind) {
     case RayKind::primary:
     case RayKind::orthographic:
@@ -54,7 +54,7 @@ std::vector<Flag> flags_for(RayKind kind) {
     case RayKind::mirror:
     case RayKind::light:
     case RayKind::ambient:
-      return {coherent, {"-incoherent", incoherent.coherence}};
+      return {coherent, {"-incoherent", incoherent.hint}};
     case RayKind::diffuse:
     case RayKind::chord:
       return {incoherent};
@@ -133,12 +133,13 @@ RTCGeometry EmbreePeer::user_geometry() {
 std::vector<std::unique_ptr<Contender>> EmbreePeer::contenders(const Workload& workload) {
   std::vector<std::unique_ptr<Contender>> all;
   const auto add = [&](const char* geometry, RTCScene scene, const Mode& mode, const Flag& flag) {
+    if (mode.call == EmbreeCall::stream && !embree_has_streams) return;
     const bool limited = isa_ == Isa::avx2;
     const std::string name = std::string(limited ? "embree-avx2-" : "embree-") + geometry + "-" +
                              mode.name + flag.suffix;
     Contender::Info info = {name, limited ? "avx2" : "avx512", mode.width, "float", true, false};
     all.push_back(std::make_unique<EmbreeContender>(std::move(info), workload, scene, mode.call,
-                                                    flag.coherence, rays_));
+                                                    flag.hint, rays_));
   };
   for (const Flag& flag : flags_for(workload.kind)) {
     for (const Mode& mode : modes) add("builtin", builtin_, mode, flag);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,8 +13,8 @@ namespace boule::bench {
 
 /// Embree on one scene, in its best form: its own spheres ("builtin") and user geometry with our
 /// callbacks ("user"), capsules as its own round linear curves beside either, each asked for 1, 4,
-/// 8, 16 rays and for a stream ("1M") at a time. Primary rays are declared coherent, diffuse ones
-/// incoherent, the others both ("-incoherent").
+/// 8, 16 rays at a time, and with Embree 3 for a stream ("1M"). Primary rays are declared coherent,
+/// diffuse ones incoherent, the others both ("-incoherent").
 ///
 /// In Embree's favour: its structures of rays are filled, and tfar and the ids reset, outside the
 /// timed part; directions are of unit length, so that the callback need not divide; denormals are
