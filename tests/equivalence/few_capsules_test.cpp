@@ -149,6 +149,17 @@ void graze(Ray& ray, const Capsule& capsule, const Vec3d& away) {
   ray.org = from + away * hit;
 }
 
+/// The capsule, and so many others aside from it that they lie in a tree: kernels then know no
+/// angles of capsules, and look for planes between them and the rays.
+std::vector<Capsule> among_others(const Capsule& capsule, const Vec3d& aside) {
+  std::vector<Capsule> capsules{capsule};
+  for (int i = 0; i < 20; ++i) {
+    const Vec3f by = vec_cast<float>(aside * (40.0 + 3.0 * i));
+    capsules.push_back({capsule.a + by, capsule.b + by, capsule.radius, {}});
+  }
+  return capsules;
+}
+
 TEST_P(FewCapsules, GrazingRaysEqualTheScalarPath) {
   CaseRandom random(33);
   for (int trial = 0; trial < 2000; ++trial) {
@@ -165,8 +176,19 @@ TEST_P(FewCapsules, GrazingRaysEqualTheScalarPath) {
     graze(ray, capsule, away);
     ASSERT_NE(reference_hit(ray, {capsule}).id, no_primitive);
     expect_reference_hits({capsule}, {ray}, Coherence::common_origin);
+    expect_reference_hits(among_others(capsule, normalize(away)), {ray}, Coherence::common_origin);
     if (HasFailure()) return;
   }
+}
+
+/// Gives the capsule the least radius at which the ray hits it.
+void shrink_to(const Ray& ray, Capsule& capsule) {
+  float hit = 20, miss = 0;
+  for (int i = 0; i < 60; ++i) {
+    capsule.radius = (hit + miss) / 2;
+    (reference_hit(ray, {capsule}).id == no_primitive ? miss : hit) = capsule.radius;
+  }
+  capsule.radius = hit;
 }
 
 TEST_P(FewCapsules, GrazingRaysToAnEndToo) {
@@ -180,15 +202,27 @@ TEST_P(FewCapsules, GrazingRaysToAnEndToo) {
     const Vec3d middle = dir * -random.decade(-2, 1) + random.direction() * random.decade(-4, -1);
     const Vec3d half = random.direction() * random.decade(-3, 0);
     Capsule capsule{vec_cast<float>(middle - half), vec_cast<float>(middle + half), 0, {}};
-    float hit = 20, miss = 0;
-    for (int i = 0; i < 60; ++i) {
-      capsule.radius = (hit + miss) / 2;
-      (reference_hit(ray, {capsule}).id == no_primitive ? miss : hit) = capsule.radius;
-    }
-    capsule.radius = hit;
+    shrink_to(ray, capsule);
     expect_reference_hits({capsule}, {ray}, Coherence::common_end);
     if (HasFailure()) return;
   }
+}
+
+// The ray starts at the origin, where its rounding to float leaves no room. An end of the capsule
+// is as near to it as rounding allows, so that steps of the radius come near to those of double.
+TEST_P(FewCapsules, GrazingRaysOfOneDirectionToo) {
+  CaseRandom random(35);
+  std::size_t hits = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const Ray ray{{}, vec_cast<float>(random.direction())};
+    const Vec3f end = vec_cast<float>(vec_cast<double>(ray.dir) * random.uniform(1, 4));
+    const Vec3f other = end + vec_cast<float>(random.direction() * random.decade(-3, 0));
+    Capsule capsule{end, trial % 2 == 0 ? end : other, 0, {}};
+    shrink_to(ray, capsule);
+    hits += expect_reference_hits({capsule}, {ray}, Coherence::common_direction);
+    if (HasFailure()) return;
+  }
+  EXPECT_GT(hits, 3900U);
 }
 
 }  // namespace
