@@ -114,6 +114,10 @@ EdgeTarget edge_target(const RenderOptions& options) {
   return {options.aa, options.spp, options.exposure_stops, options.transparent};
 }
 
+float left_out_weight(const RenderOptions& options) {
+  return std::max(options.least_weight, options.aa / (16 * 255));
+}
+
 NoiseTarget noise_target(const RenderOptions& options) {
   return {options.noise, options.min_spp, options.spp, options.exposure_stops, options.transparent};
 }

@@ -65,6 +65,10 @@ inline bool is_measured(const RenderOptions& options) {
 /// The edges that these options ask for.
 EdgeTarget edge_target(const RenderOptions& options);
 
+/// The weight that the mirrored and refracted rays of a sample may lose in all: `least_weight` or,
+/// if that is more, a sixteenth of the step of `aa`.
+float left_out_weight(const RenderOptions& options);
+
 /// The noise that these options ask for.
 NoiseTarget noise_target(const RenderOptions& options);
 

@@ -342,7 +342,7 @@ IntegratorSettings Renderer::integrator_settings() const {
   settings.cancel = options_.cancel;
   settings.seed = options_.seed;
   settings.shadow_epsilon = options_.shadow_epsilon;
-  settings.least_weight = options_.least_weight;
+  settings.least_weight = left_out_weight(options_);
   settings.fog = fog();
   return settings;
 }

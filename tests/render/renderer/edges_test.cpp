@@ -91,6 +91,7 @@ TEST(Edges, PixelsEqualThoseOfUniformPictures) {
     options.filter = filter;
     const MeasuredPicture picture = measured(scene, options);
     std::map<std::uint32_t, Image> uniform;
+    options.least_weight = left_out_weight(options);
     options.aa = 0;
     std::size_t i = 0;
     for (const MeasuredPixel& pixel : picture.pixels()) {
@@ -104,6 +105,16 @@ TEST(Edges, PixelsEqualThoseOfUniformPictures) {
     for (const auto& [samples, image] : uniform) counts.insert(samples);
     EXPECT_EQ(counts, (std::set<std::uint32_t>{1, 4, 8, 16, 32, 64}));
   }
+}
+
+TEST(Edges, LeaveOutASixteenthOfAStep) {
+  RenderOptions options = options_with(8);
+  EXPECT_EQ(left_out_weight(options), 8.0F / 255 / 16);
+  options.least_weight = 0.01F;
+  EXPECT_EQ(left_out_weight(options), 0.01F);
+  options.aa = 0;
+  options.least_weight = 0;
+  EXPECT_EQ(left_out_weight(options), 0);
 }
 
 /// The mean of the largest channel's displayed errors.
