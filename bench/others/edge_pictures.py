@@ -1,16 +1,19 @@
 #!/usr/bin/python3
 """edge_pictures.py BOULE SPHEREFLAKE [--size N] [--repeats N] [--scenes NAME...] [-o FIGURES.json] [--keep FOLDER]
 
-The error of whole pictures over the processor's time: Boule with as many samples everywhere, Boule with --aa, and
-POV-Ray's adaptive antialiasing, on scenes without noise. BOULE and SPHEREFLAKE are the programs boule and
-boule_sphereflake; run it in the repository's root. Errors are root mean squares in codes of 255, of displayed colours that
-are not rounded, against the program's own reference: 1024 samples a pixel by Boule, 144 by POV-Ray (12 x 12 a pixel,
-averaged in linear light), because the two differ in shading. Seconds are of one thread, the least of turns, less those of a
-picture of 8 x 8 pixels. bench/report/publish.py draws the figures. Needs povray, python3-numpy, and boule on PYTHONPATH.
+The error of whole pictures over the processor's time: Boule with as many samples everywhere, Boule with --aa,
+POV-Ray's adaptive antialiasing, and Tachyon with as many samples everywhere (where no sphere is of glass), on scenes without
+noise. BOULE and SPHEREFLAKE are the programs boule and boule_sphereflake; run it in the repository's root. Errors are root
+mean squares in codes of 255, of displayed colours that are not rounded, against the program's own reference, because
+shading differs: 1024 samples a pixel by Boule, 144 by POV-Ray (12 x 12 a pixel, averaged in linear light), 256 by Tachyon.
+Seconds are of one thread, the least of turns, less those of a picture of 8 x 8 pixels. bench/report/publish.py draws the
+figures. Needs povray, tachyon, python3-numpy, and boule on PYTHONPATH.
 """
 import argparse
 import json
+import math
 import subprocess
+import sys
 import tempfile
 import tomllib
 from pathlib import Path
@@ -18,12 +21,15 @@ from pathlib import Path
 import boule
 import numpy as np
 
-from stick_pictures import ELEMENTS, run
+from stick_pictures import ELEMENTS, run, text
 
 UNIFORM = (1, 2, 4, 8, 16, 32, 64)
 ADAPTIVE = (64, 32, 16, 8, 4, 2)
 POV = ("-A", "+AM1 +A0.3 +R2", "+AM1 +A0.3 +R3", "+AM1 +A0.1 +R3", "+AM1 +A0.05 +R4", "+AM2 +A0.3 +R2",
        "+AM2 +A0.1 +R2", "+AM2 +A0.1 +R3", "+AM2 +A0.05 +R3")
+TACHYON = (1, 2, 4, 8, 16, 32)
+TACHYON_FINE = 256
+OF_GLASS = ("lecture", "metal_glass_plastic")
 FINE = 12  # POV-Ray's reference has so many samples along each side of a pixel
 
 
@@ -62,17 +68,62 @@ material = "{element}"
     return file
 
 
+def pour(folder):
+    """The gallery's grains, some of which still fall, coloured by speed; a floor and two lights."""
+    subprocess.run([sys.executable, Path("scenes/particles.py").resolve()], cwd=folder, check=True)
+    heap = [[float(x) for x in line.split()] for line in (folder / "heap.xyz").read_text().splitlines()[2:]]
+    groups = {}
+    for i, (x, y, z, r, *_) in enumerate(heap):
+        t = 2 - 3 * i / len(heap)  # since it was let go, 4 above the floor
+        is_falling = t < math.sqrt((4 - z) / 4.9)
+        if t > 0:
+            groups.setdefault(1 + int(9.8 * t / 2) if is_falling else 0, []).append(
+                [x, y, 4 - 4.9 * t * t if is_falling else z, r])
+    file = """[camera]
+eye = [3.4, -6.4, 3.0]
+look_at = [0, 0, 1.5]
+up = [0, 0, 1]
+fov = 38
+[background]
+color = [1, 1, 1]
+ambient = [0.2, 0.2, 0.2]
+[material.floor]
+color = [0.8, 0.8, 0.8]
+[[plane]]
+normal = [0, 0, 1]
+material = "floor"
+[[light]]
+type = "directional"
+direction = [-0.5, 0.6, -0.9]
+intensity = [0.7, 0.7, 0.7]
+[[light]]
+type = "directional"
+direction = [0.8, 0.5, -0.4]
+intensity = [0.2, 0.2, 0.2]
+"""
+    for group, grains in sorted(groups.items()):
+        np.save(folder / f"grains{group}.npy", np.array(grains, "<f4"))
+        file += f"""[material.m{group}]
+color = [{0.25 + 0.12 * group}, {0.3 + 0.08 * group}, 0.5]
+[[spheres]]
+file = "grains{group}.npy"
+material = "m{group}"
+"""
+    return file
+
+
 def write_scene(name, folder, sphereflake):
     """Writes scene.toml, with one frame and no options, into the folder. Returns the bounces."""
-    bounces = {"crambin": 0, "flake4": 8, "lecture": 8, "metal_glass_plastic": 5}[name]
-    source = Path(f"scenes/{'sphereflake' if name == 'flake4' else name}.toml")
-    text = crambin(folder) if name == "crambin" else source.read_text()
-    if name == "flake4":
-        subprocess.run([sphereflake, "4", folder / "sphereflake.npy"], check=True, stdout=subprocess.DEVNULL)
-    for file in () if name == "crambin" else {row["file"] for row in all_of(tomllib.loads(text), "spheres")}:
+    bounces = {"crambin": 0, "pour": 0, "flake4": 8, "flake6": 8, "lecture": 8, "metal_glass_plastic": 5}[name]
+    made = {"crambin": crambin, "pour": pour}.get(name)
+    source = Path(f"scenes/{'sphereflake' if name.startswith('flake') else name}.toml")
+    scene = made(folder) if made else source.read_text()
+    if name.startswith("flake"):
+        subprocess.run([sphereflake, name[5:], folder / "sphereflake.npy"], check=True, stdout=subprocess.DEVNULL)
+    for file in {row["file"] for row in all_of(tomllib.loads(scene), "spheres")}:
         if not (folder / file).exists():
             (folder / file).symlink_to(Path("scenes", file).resolve())
-    (folder / "scene.toml").write_text(text if "schema" in text else "schema = 1\n" + text)
+    (folder / "scene.toml").write_text(scene if "schema" in scene else "schema = 1\n" + scene)
     return bounces
 
 
@@ -151,6 +202,67 @@ look_at {triple(camera["look_at"])} }}
     (folder / "scene.pov").write_text(file)
 
 
+def tachyon_texture(name, material, ambient):
+    kind, color = material.get("type", "matte"), material.get("color", [0.8, 0.8, 0.8])
+    shine = ""
+    if kind == "metal":
+        light = f"AMBIENT 0 DIFFUSE 0 SPECULAR {max(color)}"
+    else:
+        light = f"AMBIENT {np.mean(ambient):.9g} DIFFUSE 1 SPECULAR {material.get('reflect', 0)}"
+        if material.get("specular", 0) > 0:
+            shine = f" PHONG PLASTIC {material['specular']} PHONG_SIZE {material.get('shininess', 50)}"
+    return f"TEXDEF {name} {light} OPACITY 1{shine} COLOR {text(color)} TEXFUNC 0\n"
+
+
+def write_tachyon(folder, bounces, size):
+    """Its world is left-handed: x is mirrored. It is turned by half a pixel, since its samples lie around the pixels'
+    corners. It has no colours of metals, and no ambient light by colour."""
+    scene = tomllib.loads((folder / "scene.toml").read_text())
+    camera, background, mirror = scene["camera"], scene["background"], np.array([-1, 1, 1])
+    eye, half = np.array(camera["eye"]), np.tan(np.radians(camera["fov"] / 2))
+    forward = np.array(camera["look_at"]) - eye
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, camera.get("up", [0, 1, 0]))
+    right /= np.linalg.norm(right)
+    view = forward - (right + np.cross(right, forward)) * half / size
+    file = f"""BEGIN_SCENE
+RESOLUTION {size} {size}
+CAMERA
+ZOOM {0.5 / half:.9g}
+ASPECTRATIO 1
+ANTIALIASING 0
+RAYDEPTH {bounces + 2}
+CENTER {text(eye * mirror)}
+VIEWDIR {text(view * mirror)}
+UPDIR {text(camera.get("up", [0, 1, 0]) * mirror)}
+END_CAMERA
+"""
+    if background.get("type") == "gradient":
+        file += (f"BACKGROUND_GRADIENT SKY_SPHERE UPDIR 0 1 0 TOPVAL 1 BOTTOMVAL -1 TOPCOLOR {text(background['top'])} "
+                 f"BOTTOMCOLOR {text(background['bottom'])}\n")
+    else:
+        file += f"BACKGROUND {text(background['color'])}\n"
+    for light in scene["light"]:
+        if light.get("type") == "directional":
+            file += f"DIRECTIONAL_LIGHT DIRECTION {text(light['direction'] * mirror)} "
+        else:
+            file += f"LIGHT CENTER {text(light['position'] * mirror)} RAD 0.0001 "
+        file += f"COLOR {text(light['intensity'])}\n"
+    for name, material in scene["material"].items():
+        file += tachyon_texture(name, material, background.get("ambient", [0, 0, 0]))
+    for plane in scene.get("plane", []):
+        file += (f"PLANE CENTER {text(plane.get('point', [0, 0, 0]) * mirror)} "
+                 f"NORMAL {text(plane.get('normal', [0, 1, 0]) * mirror)} {plane['material']}\n")
+    for material, spheres in placed(scene, scene, folder):
+        file += "".join(f"SPHERE CENTER {text(s[:3] * mirror)} RAD {s[3]:.9g} {material}\n" for s in spheres)
+    (folder / f"scene_{size}.dat").write_text(file + "END_SCENE\n")
+
+
+def tachyon_command(samples, threads=1):
+    return ["tachyon", "{folder}/scene_{size}.dat", "-o", "{out}", "-format", "PPM48", "-shade_phong", "-aasamples",
+            str(samples - 1), "-numthreads", str(threads)]
+
+
 def displayed(linear):
     """Codes of 255, which are not rounded."""
     x = np.clip(linear, 0, 1)
@@ -162,8 +274,8 @@ def boule_picture(scene, size, bounces, **options):
     return displayed(np.asarray(picture)[..., :3].astype(float))
 
 
-def pov_picture(path, size):
-    """Of its linear light, the mean of the samples of a pixel."""
+def picture_of(path, size):
+    """Of a file in linear light, the mean of the samples of a pixel."""
     with open(path, "rb") as file:
         words = []
         while len(words) < 4:
@@ -185,39 +297,54 @@ def picture_name(mode):
     return mode.replace(" ", "") + ".ppm"
 
 
-def measure(name, options, folder):
-    bounces = write_scene(name, folder, options.sphereflake)
-    write_pov(folder, bounces)
-    scene, size = folder / "scene.toml", options.size
+def ways_of(name, options, bounces):
+    """Rows of program, mode and command, and the options in Python if it is Boule."""
     common = [options.boule, "render", "{folder}/scene.toml", "-o", "{out}", "--size", "{size}x{size}", "--max-depth",
               str(bounces), "-q", "-t", "1"]
     ways = [("uniform", f"{n} spp", [*common, "--spp", str(n)], {"spp": n}) for n in UNIFORM]
     ways += [("adaptive", f"--aa {x}", [*common, "--aa", str(x)], {"aa": x}) for x in ADAPTIVE]
     ways += [("povray", mode, pov_command(mode), None) for mode in POV]
-    seconds = {}
+    if name not in OF_GLASS:
+        ways += [("tachyon", f"{n} samples", tachyon_command(n), None) for n in TACHYON]
+    return ways
+
+
+def measure(name, options, folder):
+    bounces = write_scene(name, folder, options.sphereflake)
+    write_pov(folder, bounces)
+    scene, size = folder / "scene.toml", options.size
+    for pixels in () if name in OF_GLASS else (8, size):
+        write_tachyon(folder, bounces, pixels)
+    ways, seconds = ways_of(name, options, bounces), {}
     for _ in range(options.repeats):
-        start = {is_ours: run(command, folder, 8, folder / "small.ppm")
-                 for is_ours, command in ((True, ways[0][2]), (False, ways[-1][2]))}
+        start = {}
         for program, mode, command, ours in ways:
-            taken = run(command, folder, size, folder / picture_name(mode)) - start[ours is not None]
+            key = program if ours is None else "boule"
+            if key not in start:
+                start[key] = run(command, folder, 8, folder / "small.ppm")
+            taken = run(command, folder, size, folder / picture_name(mode)) - start[key]
             seconds.setdefault((program, mode), []).append(taken)
     reference = boule_picture(scene, size, bounces, spp=1024)
     run(pov_command("-A", 2), folder, size * FINE, folder / "fine.ppm")
-    pov_reference = pov_picture(folder / "fine.ppm", size)
+    others = {"povray": picture_of(folder / "fine.ppm", size)}
+    if name not in OF_GLASS:
+        run(tachyon_command(TACHYON_FINE, 2), folder, size, folder / "fine.ppm")
+        others["tachyon"] = picture_of(folder / "fine.ppm", size)
     rows = []
     for program, mode, _, ours in ways:
         if ours is None:
-            off = pov_picture(folder / picture_name(mode), size) - pov_reference
+            off = picture_of(folder / picture_name(mode), size) - others[program]
         else:
             off = boule_picture(scene, size, bounces, **ours) - reference
         rows.append({"scene": name, "program": program, "mode": mode, "seconds": max(min(seconds[program, mode]), 0.001),
                      "rmse": float(np.sqrt(np.mean(off ** 2))), "p999": float(np.quantile(np.abs(off), 0.999))})
         print("{scene:20} {program:9} {mode:16} {seconds:8.3f} s, RMSE {rmse:6.3f}, 99.9 % {p999:6.2f}".format(**rows[-1]),
               flush=True)
-    apart = np.abs(reference - pov_reference)
-    print(f"{name}: the references differ by {apart.mean():.2f} codes on average")
+    for program, picture in others.items():
+        apart = np.abs(reference - picture).mean()
+        print(f"{name}: the references of boule and {program} differ by {apart:.2f} codes on average", flush=True)
     if options.keep:
-        for program, codes in (("boule", reference), ("povray", pov_reference)):
+        for program, codes in ({"boule": reference} | others).items():
             with open(Path(options.keep) / f"{name}_{program}.ppm", "wb") as file:
                 file.write(f"P6 {size} {size} 255\n".encode() + np.rint(codes).astype(np.uint8).tobytes())
     return rows
@@ -229,7 +356,8 @@ def main():
     parser.add_argument("sphereflake")
     parser.add_argument("--size", type=int, default=512, help="pixels along a side")
     parser.add_argument("--repeats", type=int, default=3)
-    parser.add_argument("--scenes", nargs="*", default=["crambin", "metal_glass_plastic", "lecture", "flake4"])
+    parser.add_argument("--scenes", nargs="*",
+                        default=["crambin", "metal_glass_plastic", "lecture", "flake4", "flake6", "pour"])
     parser.add_argument("-o", dest="figures", help="write the figures as JSON")
     parser.add_argument("--keep", help="a folder for the references")
     options = parser.parse_args()
