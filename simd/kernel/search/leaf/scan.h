@@ -137,11 +137,20 @@ BOULE_INLINE void meet_survivors(const RayLanes& rays, Solver solver, const All&
   }
 }
 
+/// The number of spheres outside the leaves. With a tree their slots are whole blocks, of which a
+/// ground sphere, say, fills one slot.
+BOULE_INLINE std::size_t count_scanned(const SphereView& spheres) {
+  std::size_t size = spheres.scanned;
+  while (size > 4 && spheres.id[size - 4] < 0) size -= 4;
+  while (size > 0 && spheres.id[size - 1] < 0) --size;
+  return size;
+}
+
 /// Scans the spheres outside the leaves.
 template <class Access, class Best>
 BOULE_INLINE void scan_spheres(const RayLanes& rays, Solver solver, const SphereView& spheres,
                                Best& best) {
-  const std::size_t steps = Access::steps(spheres.scanned);
+  const std::size_t steps = Access::steps(count_scanned(spheres));
   for (std::size_t begin = 0; begin < steps && !best.done(); begin += Best::chunk) {
     const std::size_t end = steps - begin < Best::chunk ? steps : begin + Best::chunk;
     const ScannedSpheres<Access> scanned{spheres};
