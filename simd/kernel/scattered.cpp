@@ -5,7 +5,7 @@
 
 #include "simd/kernel/search/flock/flight_stream.h"
 #include "simd/kernel/search/flock/ray_sets.h"
-#include "simd/kernel/search/flock/ticks.h"
+#include "simd/kernel/search/flock/trial.h"
 #include "simd/kernel/tuning.h"
 
 namespace boule::BOULE_KERNEL_ISA {
@@ -32,12 +32,12 @@ class Choice {
 
   /// Records rays that went the current way, and the ticks they took. `shared`: of a set, whether
   /// its rays shared so many visits that flights cannot gain.
-  void add(std::size_t rays, std::uint64_t ticks, bool shared) {
+  void add(std::size_t rays, float ticks, bool shared) {
     if (!is_trial()) {
       known_.left -= known_.left < rays ? known_.left : static_cast<std::uint32_t>(rays);
       return;
     }
-    add_to(known_.cost[known_.next_way], static_cast<float>(rays), static_cast<float>(ticks));
+    add_to(known_.cost[known_.next_way], static_cast<float>(rays), ticks);
     if (way() == Way::set) known_.tried_ways = any || shared ? 2 : ways;
     if (++known_.next_way == known_.tried_ways) choose(known_.tried_ways);
   }
@@ -63,16 +63,15 @@ class Choice {
     const bool is_first = known_.rays == 0;
     bool is_clear = !is_first;
     for (std::size_t way = 0; way < tried; ++way)
-      is_clear = is_clear && (way == best || tuning::clearly_more * of(best) < of(way));
+      is_clear = is_clear && (way == best || costs_clearly_less(of(best), of(way)));
     // The first trial starts as if earlier trials had preferred sets. It runs before the caches
     // hold any of the tree, so that the next one follows at once.
-    std::size_t rays = is_first || best != current ? tuning::rays_after_trial
-                                                   : tuning::growth_while_agreed * known_.rays;
-    if (rays < tuning::rays_after_trial) rays = tuning::rays_after_trial;
-    if (is_clear || rays > tuning::most_after_trial) rays = tuning::most_after_trial;
-    if (is_first) rays = 1;
+    const std::uint32_t rays =
+        is_first ? 1
+                 : rays_after_trial(best == current, known_.rays, is_clear,
+                                    tuning::least_after_trial, tuning::most_after_trial);
     known_.way = static_cast<std::uint32_t>(best);
-    known_.rays = known_.left = static_cast<std::uint32_t>(rays);
+    known_.rays = known_.left = rays;
     known_.next_way = 0;
     if (is_first) {
       for (Experience::Cost& cost : known_.cost) cost = {};
@@ -120,10 +119,9 @@ class ScatteredStream {
     Choice<any_hit> choice(known);
     while (begin < end) {
       const std::size_t rays = end - begin < choice.rays() ? end - begin : choice.rays();
-      const std::uint64_t before = ticks();
+      const std::uint64_t start = ticks();
       const bool shared = run(choice.way(), begin, begin + rays);
-      const std::uint64_t after = ticks();
-      choice.add(rays, before < after ? after - before : 0, shared);
+      choice.add(rays, ticks_since(start), shared);
       begin += rays;
     }
   }

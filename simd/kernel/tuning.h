@@ -223,7 +223,7 @@ inline constexpr std::size_t set_size = 256;
 /// beside the other forms; the last two numbers by trial
 template <bool any>
 inline constexpr std::size_t rays_on_trial[] = {set_size, any ? 256 : 64, 128};
-inline constexpr std::size_t rays_after_trial = 1984, most_after_trial = 16 * rays_after_trial;
+inline constexpr std::size_t least_after_trial = 1984, most_after_trial = 16 * least_after_trial;
 inline constexpr std::size_t growth_while_agreed = 4;
 inline constexpr float share_of_earlier_trials = 0.75F;
 inline constexpr float most_growth_of_cost = 16, most_fall_of_cost = 4;
@@ -236,9 +236,9 @@ inline constexpr float most_growth_of_cost = 16, most_fall_of_cost = 4;
 /// flight and set
 inline constexpr std::size_t steps_of_shared_visit = 24;
 
-/// If one way takes more than this many times as long as the other, the next rays are as many as
-/// possible. Without it u100's mirrored rays lost 5 %. Again: bench_peers --scenes u100 --rays
-/// mirror, beside its form packet
+/// If two trials agree, and in the second one way takes more than this many times as long as the
+/// other, the next rays are as many as possible. Without it u100's mirrored rays lost 5 %. Again:
+/// bench_peers --scenes u100 --rays mirror, beside its form packet
 inline constexpr float clearly_more = 2;
 
 /// Rays switch to another way only if it is faster by this factor; sets come first. For any hit,
@@ -249,16 +249,21 @@ inline constexpr float gain_to_change = any ? 1.15F : 1.0F;
 
 // ---- The choice whether shadow rays are sorted: search/bundle/shadow_stream.h ----------------
 
-/// With at least this many rays a trial tells whether they are sorted.
-inline constexpr std::size_t fewest_rays_judged = bundle_size;
+/// The number of sorted bundles that a trial times, if there are as many. With fewer than two
+/// bundles there is no trial, because an interruption could not be told from their cost. A trial
+/// sorts no more rays than it must: of whole pools, slab2000000 lost 10 % of its speed by trials
+/// instead of 4 %. Again: bench_peers --size 512 --scenes
+/// u1000000,flake6,slab2000000,protein500000,grains200000 --rays shadow, beside the form set
+inline constexpr std::size_t bundles_judged = 4;
+inline constexpr std::size_t fewest_rays_judged = 2 * bundle_size;
+inline constexpr std::size_t most_rays_judged = 16384;
 
 /// Each of four samples of unsorted rays has one ray in 128, a multiple of W, and as many go before
-/// it. Sets of fewer than 64 rays share few visits. With one ray in 32, scenes of two or three
-/// pools (u1000000, flake6, slab2000000) lost 5 to 10 % more. Again: bench_peers --size 512
-/// --scenes u1000000,flake6,slab2000000,grains200000 --rays shadow, beside the form set
+/// it. Sets of fewer than 64 rays share few visits. With twice as many, grains200000 is 5 % slower.
+/// Again: as bundles_judged
 constexpr std::size_t rays_of_sample(std::size_t rays) {
   const std::size_t some = rays / 2048 * 16;
-  return some < 64 ? 64 : some > set_size ? set_size : some;
+  return some < 64 ? 64 : some;
 }
 
 /// A part of a trial was interrupted if its units take more than this many times as long as those
@@ -266,9 +271,9 @@ constexpr std::size_t rays_of_sample(std::size_t rays) {
 /// a leaf of one bundle up to four times as long as a leaf of another one.
 inline constexpr float interrupted = 8;
 
-/// The largest number of rays that rely on such a trial. The first one is followed by another one,
-/// unless it is clear (clearly_more); the number then begins with pool_size and grows by
-/// growth_while_agreed.
+/// The least and the largest number of rays that rely on such a trial: at first the rest of a pool.
+/// Another region of a picture may need the other way (protein500000).
+inline constexpr std::size_t least_after_sorting = pool_size - most_rays_judged;
 inline constexpr std::size_t most_after_sorting = 16 * pool_size;
 
 // ---- Path tracing: shading/path_step.h --------------------------------------------------------

@@ -150,6 +150,25 @@ TEST_P(Bundle, ShadowsDependOnNoFindings) {
   }
 }
 
+/// Rays that are said to have one end and have none: they are not sorted.
+TEST_P(Bundle, BrokenPromisesAreNotSorted) {
+  CaseRandom random(69);
+  BundleScene scene = cloud("scattered", {0, 0, 0}, 1, 0.1, 0);
+  const Geometry geometry(scene.spheres, {});
+  std::vector<Ray> rays;
+  for (int i = 0; i < 3000; ++i) {
+    const Vec3d end = random.direction();
+    rays.push_back(scattered(random, scene.spheres, 1, end, true)[0]);
+  }
+  Experience known;
+  const Query query{Solver::robust, Form::automatic, Coherence::common_end, &known};
+  EXPECT_EQ(
+      run_any(*kernels, geometry.view(), rays, query),
+      run_any(*kernels, geometry.view(), rays, {Solver::robust, Form::packet, Coherence::none}));
+  EXPECT_EQ(known.sorting.pays, 0U);
+  EXPECT_GT(known.sorting.left, 0U);
+}
+
 /// Rays that go on beyond the end that they have in common.
 TEST_P(Bundle, GoesOnBeyondTheEnd) {
   const BundleScene scene = cloud("around a light", {0, 0, 0}, 1, 0.1, 0);

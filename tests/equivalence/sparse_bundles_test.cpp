@@ -111,6 +111,27 @@ TEST_P(SparseBundle, SkipsGroupsThatAreDone) {
   }
 }
 
+/// `count` shadow rays from anywhere on the spheres to a light.
+std::vector<Ray> to_a_light(CaseRandom& random, const BundleScene& scene, int count,
+                            bool is_point) {
+  const Vec3d light{-1, -1.5, is_point ? 3.0 : 2.0};
+  std::vector<Ray> rays;
+  for (int i = 0; i < count; ++i) {
+    const int source = random.below(static_cast<int>(scene.spheres.size()));
+    const Sphere& sphere = scene.spheres[static_cast<std::size_t>(source)];
+    const Vec3d normal = random.direction();
+    Ray ray{center_of(sphere) + normal * (double{sphere.radius} * (1 + 0x1p-40)),
+            vec_cast<float>(light)};
+    ray.source = source;
+    if (is_point) {
+      ray.dir = vec_cast<float>(light - ray.org);
+      ray.tmax = 1 - 0x1p-22F;
+    }
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
 /// Shadow rays from a disc with more leaves than rays: their sorted bundles are sparse, so they go
 /// unsorted, the few as well as the many that have a trial.
 TEST_P(SparseBundle, GoesUnsortedToALight) {
@@ -118,25 +139,32 @@ TEST_P(SparseBundle, GoesUnsortedToALight) {
     CaseRandom random(83);
     const BundleScene scene = flat_disc(random, 40 * count, count < 1000 ? 0.008 : 0.003);
     for (const bool is_point : {true, false}) {
-      const Vec3d light{-1, -1.5, is_point ? 3.0 : 2.0};
-      std::vector<Ray> rays;
-      for (int i = 0; i < count; ++i) {
-        const auto source = static_cast<std::size_t>(random.below(40 * count));
-        const Sphere& sphere = scene.spheres[source];
-        const Vec3d normal = random.direction();
-        Ray ray{center_of(sphere) + normal * (double{sphere.radius} * (1 + 0x1p-40)),
-                vec_cast<float>(light)};
-        ray.source = static_cast<std::int32_t>(source);
-        if (is_point) {
-          ray.dir = vec_cast<float>(light - ray.org);
-          ray.tmax = 1 - 0x1p-22F;
-        }
-        rays.push_back(ray);
-      }
+      const std::vector<Ray> rays = to_a_light(random, scene, count, is_point);
       SCOPED_TRACE(testing::Message() << count << (is_point ? " to a point" : ""));
       check_any(scene, rays, is_point ? Coherence::common_end : Coherence::common_direction);
       if (HasFatalFailure()) return;
     }
+  }
+}
+
+/// The same rays: a trial learns that sorting does not pay, of three bundles as well as of many.
+/// One bundle alone has no trial.
+TEST_P(SparseBundle, LearnsFromTwoBundlesOrMore) {
+  CaseRandom random(84);
+  const BundleScene scene = flat_disc(random, 200000, 0.003);
+  const Geometry geometry(scene.spheres, {});
+  for (const int count : {1500, 2500, 5000}) {
+    const std::vector<Ray> rays = to_a_light(random, scene, count, true);
+    Experience::Sorting found;
+    // The clock may err, because the system runs other programs, too.
+    for (int attempt = 0; attempt < 5 && found.pays != 0; ++attempt) {
+      Experience known;
+      run_any(*kernels, geometry.view(), rays,
+              {Solver::robust, Form::automatic, Coherence::common_end, &known});
+      found = known.sorting;
+    }
+    EXPECT_EQ(found.pays, count < 2048 ? 2U : 0U) << count;
+    EXPECT_EQ(found.left > 0, count > 2048) << count;
   }
 }
 

@@ -2,11 +2,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "simd/kernel/search/bundle/bundle_stream.h"
 #include "simd/kernel/search/bundle/ray_pool.h"
 #include "simd/kernel/search/flock/scattered_stream.h"
-#include "simd/kernel/search/flock/ticks.h"
+#include "simd/kernel/search/flock/trial.h"
 #include "simd/kernel/tuning.h"
 
 /// Streams of coherent shadow rays (any hit). Bundles take them in their order as long as
@@ -30,12 +31,6 @@ BOULE_INLINE std::size_t any_hit_in_order(const Geometry& geometry, const Padded
     begin += count;
   }
   return begin;
-}
-
-/// The ticks since `start`.
-BOULE_INLINE float ticks_since(std::uint64_t start) {
-  const std::uint64_t now = ticks();
-  return start < now ? static_cast<float>(now - start) : 0.0F;
 }
 
 /// The cost of some work of a few parts, each of many units. The system also runs other programs on
@@ -106,16 +101,24 @@ class UnsortedSamples {
   }
   /// Traces the other rays.
   BOULE_NOINLINE void trace_others() const {
-    for (std::size_t k = 0; k < size; ++k)
-      run(first(k) + 2 * rays_, k + 1 < size ? first(k + 1) : end_);
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t end = k + 1 < size ? first(k + 1) : end_;
+      trace_unsorted(geometry_, stream_, first(k) + 2 * rays_, end, known_, occluded_);
+    }
   }
 
  private:
   static constexpr std::size_t size = 4;
 
   [[nodiscard]] std::size_t first(std::size_t k) const { return begin_ + k * apart_; }
-  BOULE_INLINE void run(std::size_t first, std::size_t end) const {
-    trace_unsorted(geometry_, stream_, first, end, known_, occluded_);
+  /// The way that trials prefer, or sets if there was none: a trial in the midst of a sample would
+  /// count as what its rays cost.
+  BOULE_NOINLINE void run(std::size_t first, std::size_t end) const {
+    if (known_.rays != 0 && static_cast<Way>(known_.way) == Way::packet) {
+      trace_rest(geometry_, stream_, first, end, occluded_);
+    } else {
+      trace_sparse(geometry_, stream_, first, end, occluded_);
+    }
   }
 
   const Geometry& geometry_;
@@ -125,28 +128,29 @@ class UnsortedSamples {
   std::size_t begin_, end_, apart_, rays_;
 };
 
-/// The bundles of a sorted pool, those with the densest rays first. If there are four or more, one
-/// of each quarter comes before all others: the pool is judged by them.
+/// The bundles of a sorted pool, those with the densest rays first. A few from all over this order,
+/// all if there are no more, come before all others: the pool is judged by them.
 template <Common common>
 class PoolBundles {
  public:
-  static constexpr std::size_t judges = 4;
-
   explicit PoolBundles(const RayPool<common>& pool) : pool_(pool) {
     for (; size_ * bundle_size < pool.size(); ++size_) {
       std::size_t at = size_;
       for (; at > 0 && area(size_) < area(order_[at - 1]); --at) order_[at] = order_[at - 1];
       order_[at] = size_;
     }
-    if (size_ < judges) return;
-    for (std::size_t k = 0; k < judges; ++k) {
-      const std::size_t at = (2 * k + 1) * size_ / (2 * judges), judge = order_[at];
+    for (std::size_t k = 0; k < judges(); ++k) {
+      const std::size_t at = (2 * k + 1) * size_ / (2 * judges()), judge = order_[at];
       order_[at] = order_[k];
       order_[k] = judge;
     }
   }
 
   [[nodiscard]] std::size_t size() const { return size_; }
+  /// The number of bundles that the pool is judged by.
+  [[nodiscard]] std::size_t judges() const {
+    return size_ < tuning::bundles_judged ? size_ : tuning::bundles_judged;
+  }
   /// The first ray of the k-th bundle, and the number of its rays.
   [[nodiscard]] std::size_t first(std::size_t k) const { return order_[k] * bundle_size; }
   [[nodiscard]] std::size_t count(std::size_t k) const { return rays(order_[k]); }
@@ -192,18 +196,16 @@ std::size_t trace_sorted_halves(const Geometry& geometry, const RayPool<common>&
 }
 
 /// Sorts rays begin .. end - 1, at most a pool, by their place as their light sees it, and finds
-/// whether they hit anything. Returns the ticks that a ray seems to take. Stops if these are more
-/// than `most`. Adds the number of rays that no bundle takes, which remain unanswered, to `open`.
+/// whether they hit anything. Returns the ticks that a ray seems to take; 0: fewer than two bundles
+/// could tell; infinity: rays that share nothing. Stops if these are more than `most`. Adds the
+/// number of rays that no bundle takes, which remain unanswered, to `open`.
 template <Common common, class Geometry>
 BOULE_NOINLINE float any_hit_sorted(const Geometry& geometry, const PaddedStream& stream,
                                     std::size_t begin, std::size_t end, float most,
                                     std::size_t& open, std::uint8_t* occluded) {
   const std::uint64_t before = ticks();
   const RayPool<common> pool(stream, begin, end);
-  if (!pool.all_belong()) {
-    open += end - begin;
-    return 0;
-  }
+  if (!pool.all_belong()) return std::numeric_limits<float>::infinity();
   const PoolBundles<common> bundles(pool);
   const float sorting = ticks_since(before) / static_cast<float>(end - begin);
   float cost = 0, judged = 0;
@@ -215,7 +217,7 @@ BOULE_NOINLINE float any_hit_sorted(const Geometry& geometry, const PaddedStream
     const std::size_t left =
         trace_sorted_halves(geometry, pool, bundles.first(k), count, effort, occluded);
     open += left;
-    if (k >= bundles.judges || bundles.size() < bundles.judges) continue;
+    if (k >= bundles.judges()) continue;
     costs.add(ticks_since(start) + static_cast<float>(left) * most,
               static_cast<float>(effort.leaves + 1));
     judged += static_cast<float>(count);
@@ -251,13 +253,11 @@ BOULE_NOINLINE void trace_unanswered(const Geometry& geometry, const PaddedStrea
 BOULE_INLINE void learn(float cost, Experience::Sorting& sorting) {
   const std::uint32_t pays = cost <= sorting.most ? 1 : 0;
   const bool is_clear =
-      tuning::clearly_more * cost < sorting.most || tuning::clearly_more * sorting.most < cost;
-  std::size_t rays = tuning::growth_while_agreed * sorting.rays;
-  if (rays < tuning::pool_size) rays = tuning::pool_size;
-  if (pays != sorting.pays) rays = 0;  // or it is the first trial
-  if (is_clear || rays > tuning::most_after_sorting) rays = tuning::most_after_sorting;
+      costs_clearly_less(cost, sorting.most) || costs_clearly_less(sorting.most, cost);
+  sorting.rays = sorting.left =
+      rays_after_trial(pays == sorting.pays, sorting.rays, is_clear, tuning::least_after_sorting,
+                       tuning::most_after_sorting);
   sorting.pays = pays;
-  sorting.rays = sorting.left = static_cast<std::uint32_t>(rays);
 }
 
 /// Finds whether rays begin .. end - 1, at most a pool, hit anything: sorted, or as rays without a
@@ -302,9 +302,13 @@ BOULE_INLINE void any_hit_bundled(const Geometry& geometry, const PaddedStream& 
     const std::size_t rest = any_hit_in_order<common>(geometry, stream, begin, end, occluded);
     if (end - rest < tuning::fewest_bundle_rays) {
       trace_rest(geometry, stream, rest, end, occluded);
-    } else {
-      any_hit_unordered<common>(geometry, stream, rest, end, known, occluded);
+      continue;
     }
+    const std::size_t judged = known.sorting.left == 0 && tuning::most_rays_judged < end - rest
+                                   ? rest + tuning::most_rays_judged
+                                   : end;
+    any_hit_unordered<common>(geometry, stream, rest, judged, known, occluded);
+    if (judged < end) any_hit_unordered<common>(geometry, stream, judged, end, known, occluded);
   }
 }
 
