@@ -92,6 +92,10 @@ breaks "shadow rays that are not sorted are lost" shadow_stream.h \
   's/(trace_scattered\(geometry, stream, )begin, (end, Form::automatic)/\1BROKEN ? end : begin, \2/'
 breaks "shadow rays that no sorted bundle takes are lost" shadow_stream.h \
   's/(trace_unanswered\(geometry, stream, )begin, (end, known)/\1BROKEN ? end : begin, \2/'
+breaks "a trial of fewer than four sorted bundles judges none" shadow_stream.h \
+  's/if \(k >= bundles\.judges\(\)\) continue;/if (k >= bundles.judges() || (BROKEN \&\& bundles.size() < 4)) continue;/'
+breaks "the last sphere beside a tree is not scanned" scan.h \
+  's/while \(size > 0 && spheres\.id\[size - 1\] < 0\) --size;/&\n  if (BROKEN \&\& size > 0) --size;/'
 breaks "groups that are not done are taken for done" bundle_walk.h \
   's/if \((groups_near\(.*hits_\.limits\(\), extent, near\[k\]\) != 0)\)/if ((\1) != BROKEN)/'
 breaks "one ray alone enters a child" ray_by_ray.h \
