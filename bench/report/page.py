@@ -154,14 +154,14 @@ def seconds_at(error, rows):
 
 
 def edge_table(report):
-    """What POV-Ray takes, and Boule with as many samples everywhere, over --aa at the same error."""
+    """What other programs take, and Boule with as many samples everywhere, over --aa at the same error."""
     rows, adaptive = [], {}
     for row in report.get("edges", []):
         adaptive.setdefault(row["scene"], []).append(row) if row["program"] == "adaptive" else None
     for row in report.get("edges", []):
         ours = seconds_at(row["rmse"], adaptive[row["scene"]]) if row["program"] != "adaptive" else None
         times = f"{row['seconds'] / ours:.1f}" if ours else "-"
-        rows.append(row | {"name": {"povray": "POV-Ray"}.get(row["program"], "Boule"), "times": times})
+        rows.append(row | {"name": {"povray": "POV-Ray", "tachyon": "Tachyon"}.get(row["program"], "Boule"), "times": times})
     return table(rows, {"scene": "{scene}", "program": "{name}", "samples": "{mode}", "seconds": "{seconds:.3f}",
                         "RMS error": "{rmse:.2f}", "99.9 % within": "{p999:.1f}",
                         "times the seconds of --aa at that error": "{times}"}) if rows else ""

@@ -40,7 +40,8 @@ REPORT_JSON = {
                    "date": "2026-11-22", "command": "report -o report.json"},
     "edges": [{"scene": "lecture", "program": program, "mode": mode, "seconds": seconds, "rmse": rmse, "p999": 9}
               for program, mode, seconds, rmse in (("adaptive", "--aa 8", 1, 2), ("adaptive", "--aa 4", 4, 1),
-                                                   ("uniform", "1 spp", 0.5, 9), ("povray", "+A0.1", 12, 2**0.5))],
+                                                   ("uniform", "1 spp", 0.5, 9), ("povray", "+A0.1", 12, 2**0.5),
+                                                   ("tachyon", "16 samples", 20, 1.5))],
     "settings": {"quick": True, "seed": 1}, "widest": "avx2", "path_size": [128, 72],
     "speeds": [{"scene": scene, "structure": structure, "isa": isa, "solver": solver, "mrays_per_s": rate + i,
                 "least": 9, "most": 20, "differ": 3}
