@@ -89,7 +89,7 @@ class Charts(unittest.TestCase):
 
     def test_shipped_charts_suit_light_and_dark(self):
         shipped = sorted(REPORT.glob("*.svg"))
-        self.assertEqual([path.name for path in shipped], ["edges_flake4.svg", "edges_metal_glass_plastic.svg",
+        self.assertEqual([path.name for path in shipped], ["edges_flake4.svg", "edges_lecture.svg",
                                                              "error_at_equal_time.svg", "speed_against_error.svg"])
         for path in shipped:
             self.expect_colors(path.read_text())
