@@ -17,7 +17,7 @@ BigVec big(const Vec3<T>& v) {
 bool is_live(const BigFloat& t, const Ray& ray) {
   const BigFloat largest(double{std::numeric_limits<float>::max()});
   if (!(t <= largest) || !(BigFloat(double{ray.tmin}) < t)) return false;
-  return ray.tmax == std::numeric_limits<float>::infinity() || t <= BigFloat(double{ray.tmax});
+  return ray.tmax == std::numeric_limits<double>::infinity() || t <= BigFloat(ray.tmax);
 }
 
 BigVec at(const Ray& ray, double t) { return big(ray.org) + big(ray.dir) * BigFloat(t); }

@@ -79,8 +79,8 @@ TEST_P(FogTest, FadesAlpha) {
   const std::vector<double> all = depths();
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double seen = 1 - 0.5 * std::clamp(all[i] / 8, 0.0, 1.0);
-    EXPECT_NEAR(foggy.alpha[i], plain.alpha[i] * seen, 0.5 / 255 + 1e-5) << i;
-    EXPECT_NEAR(foggy.pixels[i].g, plain.pixels[i].g * seen, 1e-5) << i;
+    EXPECT_NEAR(foggy.alpha[i], double{plain.alpha[i]} * seen, 0.5 / 255 + 1e-5) << i;
+    EXPECT_NEAR(foggy.pixels[i].g, double{plain.pixels[i].g} * seen, 1e-5) << i;
   }
 }
 

@@ -92,7 +92,7 @@ class CapsuleWedges {
     z_[size_] = static_cast<float>(normal.z * scale);
     const double sine = (radius + off) / (away - off) + 0x1p-19;
     square_[size_] = good && sine < 1 ? static_cast<float>(sine * sine * (1 + 0x1p-20)) : 2.0F;
-    if (good && off < off_apex_) off_apex_ = static_cast<float>(off * 0.99);
+    if (good && off < static_cast<double>(off_apex_)) off_apex_ = static_cast<float>(off * 0.99);
     ++size_;
   }
   static double sum(const Vec3d& v) {
