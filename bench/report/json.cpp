@@ -50,9 +50,9 @@ static void to_json(Json& json, const ErrorMap::Cell& cell) {
 }
 
 static void to_json(Json& json, const EpsilonPicture& p) {
+  const std::string bytes = encode_image(p.marked, StreamFormat::png, p.remedy).value();
   std::string png;
-  for (const char byte : encode_image(p.marked, StreamFormat::png, p.remedy).value())
-    png += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+  for (const char byte : bytes) png += fmt::format("{:02x}", static_cast<unsigned char>(byte));
   json = {{"remedy", p.remedy},        {"width", p.marked.width},
           {"height", p.marked.height}, {"false_shadows", p.false_shadows},
           {"leaks", p.leaks},          {"png", png}};

@@ -1,8 +1,9 @@
 #!/usr/bin/python3
 """page_test.py PAGE: drives the report in headless Chromium (Debian: chromium-driver,
 python3-selenium), at desktop and phone width, light and dark. No console errors, no request leaves
-the page, nothing is wider than the window, texts of a chart do not overlap, and what is pointed at
-shows its values. Exit code 77: no browser here. --shots DIR keeps pictures of it."""
+the page, nothing is wider than the window, texts of a chart do not overlap, pictures are whole,
+and what is pointed at shows its values. Exit code 77: no browser here. --shots DIR keeps pictures
+of it."""
 
 import json
 import pathlib
@@ -32,6 +33,11 @@ for (const chart of document.querySelectorAll('figure > svg.chart')) {
   });
 }
 return found;
+"""
+
+
+BROKEN = """
+return [...document.images].filter(image => image.naturalWidth === 0).map(image => 'broken: ' + image.alt);
 """
 
 
@@ -81,6 +87,7 @@ def check(page, width, dark, shots):
         if browser.execute_script("return document.documentElement.scrollWidth") > width:
             problems.append("wider than the window")
         problems += browser.execute_script(OVERLAPS)
+        problems += browser.execute_script(BROKEN)
         if shots:
             height = browser.execute_script("return document.documentElement.scrollHeight")
             browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {
