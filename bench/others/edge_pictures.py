@@ -305,7 +305,7 @@ def ways_of(name, options, bounces):
     ways += [("adaptive", f"--aa {x}", [*common, "--aa", str(x)], {"aa": x}) for x in ADAPTIVE]
     ways += [("povray", mode, pov_command(mode), None) for mode in POV]
     if name not in OF_GLASS:
-        ways += [("tachyon", f"{n} samples", tachyon_command(n), None) for n in TACHYON]
+        ways += [("tachyon", f"-aasamples {n - 1}", tachyon_command(n), None) for n in TACHYON]
     return ways
 
 
