@@ -5,12 +5,14 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "render/apps/cli/commands/commands.h"
 #include "render/apps/cli/commands/view_source.h"
+#include "render/apps/cli/process/file_lock.h"
 #include "render/apps/cli/process/interrupt.h"
 #include "render/apps/cli/process/messages.h"
 #include "render/apps/cli/process/reading_limit.h"
@@ -96,6 +98,13 @@ ExitCode serve(const ViewCommand& command, view::WebServer& server, view::ViewSe
     tell_tunnel(url, command.socket);
     if (written && command.open) open_browser(url);
   };
+  // Before a socket in the file system is looked at: two servers would remove each other's.
+  std::optional<FileLock> lock;
+  if (!command.socket.empty()) {
+    auto taken = FileLock::take(command.socket + ".lock");
+    if (!taken) return report(taken.error(), failed);
+    lock = std::move(taken).value();
+  }
   const StopGuard guard(OnSignal::stop);
   if (const auto done = server.serve(settings, session); !done)
     return report(done.error(), done.error().key.empty() ? failed : wrong_usage);

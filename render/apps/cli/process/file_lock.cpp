@@ -69,7 +69,7 @@ FileLock& FileLock::operator=(FileLock&& other) noexcept {
 }
 
 FileLock::~FileLock() {
-  if (!path_.empty()) unlink(path_.c_str());
+  if (!path_.empty() && has_name(descriptor_, path_)) unlink(path_.c_str());
   if (descriptor_ >= 0) close(descriptor_);
 }
 

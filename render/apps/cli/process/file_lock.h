@@ -18,7 +18,7 @@ class FileLock {
   FileLock& operator=(FileLock&& other) noexcept;
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
-  /// Removes the file.
+  /// Removes the file, unless another one has its name.
   ~FileLock();
 
  private:

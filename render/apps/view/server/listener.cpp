@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -18,20 +19,30 @@
 namespace boule::view {
 namespace {
 
-int new_socket(int family) { return ::socket(family, SOCK_STREAM | SOCK_CLOEXEC, 0); }
+int new_socket(int family, int flags = 0) {
+  return ::socket(family, SOCK_STREAM | SOCK_CLOEXEC | flags, 0);
+}
 
 Status system_error() { return Diagnostic::of(std::strerror(errno)); }
 
-/// A socket that nobody listens at any more: what a program that was killed has left.
+/// A socket that nobody listens at any more: what a program that was killed has left. One whose
+/// program is busy is not: the probe waits for nobody, however many wait there already.
 bool is_left_over(const sockaddr_un& place) {
   struct stat found {};
   if (::lstat(place.sun_path, &found) != 0 || !S_ISSOCK(found.st_mode)) return false;
-  const int probe = new_socket(AF_UNIX);
+  const int probe = new_socket(AF_UNIX, SOCK_NONBLOCK);
   const bool is_refused =
       ::connect(probe, reinterpret_cast<const sockaddr*>(&place), sizeof place) != 0 &&
       errno == ECONNREFUSED;
   ::close(probe);
   return is_refused;
+}
+
+/// Device and number of a file; zeros if there is none.
+std::array<std::uint64_t, 2> identity_of(const std::string& path) {
+  struct stat found {};
+  if (::lstat(path.c_str(), &found) != 0) return {};
+  return {found.st_dev, found.st_ino};
 }
 
 }  // namespace
@@ -40,11 +51,12 @@ Listener::Listener(Listener&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
       family_(other.family_),
       url_(std::move(other.url_)),
-      file_(std::exchange(other.file_, {})) {}
+      file_(std::exchange(other.file_, {})),
+      identity_(other.identity_) {}
 
 Listener::~Listener() {
   if (descriptor_ >= 0) ::close(descriptor_);
-  if (!file_.empty()) ::unlink(file_.c_str());
+  if (!file_.empty() && identity_of(file_) == identity_) ::unlink(file_.c_str());
 }
 
 int Listener::release() { return std::exchange(descriptor_, -1); }
@@ -73,27 +85,30 @@ void Listener::name_address() {
   url_ = "http://" + (is_v6 ? "[" + name + "]" : name) + ":" + port.data();
 }
 
-Result<Listener> Listener::open(const ServerSettings& settings) {
-  if (!settings.socket.empty()) {
-    sockaddr_un place{};
-    place.sun_family = AF_UNIX;
-    if (settings.socket.size() >= sizeof place.sun_path)
-      return Diagnostic::about("--socket", "its path is too long for a socket");
-    std::memcpy(place.sun_path, settings.socket.c_str(), settings.socket.size());
-    if (is_left_over(place)) ::unlink(place.sun_path);
-    Listener listener(new_socket(AF_UNIX), AF_UNIX);
-    auto done = listener.bind_to(&place, sizeof place);
-    if (done) listener.file_ = settings.socket;
-    // Nobody can connect before it listens.
-    const bool listens = done && ::chmod(place.sun_path, S_IRUSR | S_IWUSR) == 0 &&
-                         ::listen(listener.descriptor_, SOMAXCONN) == 0;
-    if (done && !listens) done = system_error();
-    if (!done)
-      return Diagnostic::of("cannot listen at " + settings.socket + ": " + done.error().message);
-    const int near_port = settings.port > 0 ? settings.port : default_tunnel_port;
-    listener.url_ = "http://localhost:" + std::to_string(near_port);
-    return listener;
+Result<Listener> Listener::open_file(const ServerSettings& settings) {
+  sockaddr_un place{};
+  place.sun_family = AF_UNIX;
+  if (settings.socket.size() >= sizeof place.sun_path)
+    return Diagnostic::about("--socket", "its path is too long for a socket");
+  std::memcpy(place.sun_path, settings.socket.c_str(), settings.socket.size());
+  if (is_left_over(place)) ::unlink(place.sun_path);
+  Listener listener(new_socket(AF_UNIX), AF_UNIX);
+  ::fchmod(listener.descriptor_, S_IRUSR | S_IWUSR);  // before its file is there
+  auto done = listener.bind_to(&place, sizeof place);
+  if (done) {
+    listener.file_ = settings.socket;
+    listener.identity_ = identity_of(settings.socket);
+    if (::listen(listener.descriptor_, SOMAXCONN) != 0) done = system_error();
   }
+  if (!done)
+    return Diagnostic::of("cannot listen at " + settings.socket + ": " + done.error().message);
+  const int near_port = settings.port > 0 ? settings.port : default_tunnel_port;
+  listener.url_ = "http://localhost:" + std::to_string(near_port);
+  return listener;
+}
+
+Result<Listener> Listener::open(const ServerSettings& settings) {
+  if (!settings.socket.empty()) return open_file(settings);
   const std::string port = std::to_string(settings.port);
   addrinfo hints{};
   hints.ai_flags = AI_NUMERICHOST | AI_NUMERICSERV;

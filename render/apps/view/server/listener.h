@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
 
 #include "core/base/error.h"
@@ -8,7 +10,8 @@
 namespace boule::view {
 
 /// A place where a server listens: a port of an address, or a socket in the file system, which only
-/// its owner may use, and which goes with this object.
+/// its owner may use, and which goes with this object. What a program that was killed has left at
+/// that path is replaced: who opens one keeps other servers away meanwhile, by a lock.
 class Listener {
  public:
   /// An error if nobody can listen there.
@@ -26,12 +29,14 @@ class Listener {
 
  private:
   Listener(int descriptor, int family) : descriptor_(descriptor), family_(family) {}
+  static Result<Listener> open_file(const ServerSettings& settings);
   Status bind_to(const void* address, unsigned size) const;
   void name_address();
 
   int descriptor_, family_;
   std::string url_;
-  std::string file_;  ///< of a socket in the file system
+  std::string file_;                         ///< of a socket in the file system
+  std::array<std::uint64_t, 2> identity_{};  ///< of that file: another one of its name stays
 };
 
 }  // namespace boule::view

@@ -7,8 +7,10 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <memory>
 
 #include "tests/render/apps/cli/program.h"
 #include "tests/render/apps/cli/running_program.h"
@@ -80,14 +82,23 @@ TEST_F(View, TellsAnAddressThatCanBeOpened) {
   close(own);
 }
 
-/// What a server at a socket in the file system answers, up to this text or the end.
-std::string answer_at(const std::string& file, const std::string& request,
-                      const std::string& last) {
+/// A socket in the file system: one that listens there, or connects to what does.
+int at_socket(const std::string& file, int (*action)(int, const sockaddr*, socklen_t),
+              int flags = 0) {
   sockaddr_un place{};
   place.sun_family = AF_UNIX;
   file.copy(place.sun_path, sizeof place.sun_path - 1);
-  const int end = socket(AF_UNIX, SOCK_STREAM, 0);
-  EXPECT_EQ(connect(end, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
+  const int end = socket(AF_UNIX, SOCK_STREAM | flags, 0);
+  if (action(end, reinterpret_cast<const sockaddr*>(&place), sizeof place) == 0) return end;
+  close(end);
+  return -1;
+}
+
+/// What a server at a socket in the file system answers, up to this text or the end.
+std::string answer_at(const std::string& file, const std::string& request,
+                      const std::string& last) {
+  const int end = at_socket(file, connect);
+  EXPECT_GE(end, 0);
   EXPECT_EQ(write(end, request.data(), request.size()), static_cast<ssize_t>(request.size()));
   std::string answer;
   std::array<char, 4096> part{};
@@ -142,6 +153,71 @@ TEST_F(View, TakesTheSocketOfAKilledProgram) {
   EXPECT_EQ(read("a_file"), "kept");
   refused_run({"view", small_scene(), "--socket", std::string(200, 'x')}, 2);
   refused_run({"view", small_scene(), "--socket", file, "--open"}, 2);
+}
+
+/// Each finds what a killed program has left, and must not take it from the one that was faster.
+TEST_F(View, OneOfManyHasTheSocket) {
+  const std::string file = path("view.sock"), scene = small_scene();
+  for (int round = 0; round < 4; ++round) {
+    close(at_socket(file, bind));
+    std::vector<std::unique_ptr<RunningProgram>> programs;
+    for (int i = 0; i < 6; ++i) {
+      programs.push_back(std::make_unique<RunningProgram>(
+          std::vector<std::string>{"view", scene, "--socket", file}));
+    }
+    int serving = 0;
+    for (const auto& program : programs) {
+      if (program->wait_for("?token=")) {
+        ++serving;
+      } else {
+        const ProgramRun run = program->finish();
+        EXPECT_EQ(run.exit_code, 1);
+        EXPECT_THAT(run.out, HasSubstr("view.sock.lock' is held by"));
+      }
+    }
+    EXPECT_EQ(serving, 1);
+    EXPECT_THAT(answer_at(file, "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n", "\r\n\r\n"),
+                HasSubstr(" 403 "));
+    for (const auto& program : programs) program->send(SIGKILL);
+  }
+}
+
+TEST_F(View, LeavesTheSocketOfABusyProgram) {
+  const std::string file = path("busy.sock");
+  const int busy = at_socket(file, bind);
+  ASSERT_EQ(listen(busy, 0), 0);
+  std::vector<int> waiting;  // it accepts nobody, until nobody can even wait
+  while (waiting.empty() || waiting.back() >= 0)
+    waiting.push_back(at_socket(file, connect, SOCK_NONBLOCK));
+  ASSERT_EQ(errno, EAGAIN);
+  struct stat before {
+  }, after{};
+  ASSERT_EQ(stat(file.c_str(), &before), 0);
+  refused_run({"view", small_scene(), "--socket", file}, 1);
+  ASSERT_EQ(stat(file.c_str(), &after), 0);
+  EXPECT_EQ(after.st_ino, before.st_ino);
+  for (const int end : waiting) close(end);
+  close(busy);
+}
+
+/// Somebody has removed the first one's files, so that a second one could begin.
+TEST_F(View, EndsWithoutTheSocketOfAnother) {
+  const std::string file = path("view.sock"), lock = file + ".lock";
+  RunningProgram first({"view", small_scene(), "--socket", file});
+  ASSERT_TRUE(first.wait_for("?token="));
+  unlink(file.c_str());
+  unlink(lock.c_str());
+  RunningProgram second({"view", small_scene(), "--socket", file});
+  ASSERT_TRUE(second.wait_for("?token="));
+  first.send(SIGTERM);
+  EXPECT_EQ(first.finish().exit_code, 128 + SIGTERM);
+  EXPECT_THAT(answer_at(file, "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n", "\r\n\r\n"),
+              HasSubstr(" 403 "));
+  refused_run({"view", small_scene(), "--socket", file}, 1);
+  second.send(SIGTERM);
+  second.finish();
+  EXPECT_NE(access(file.c_str(), F_OK), 0);
+  EXPECT_NE(access(lock.c_str(), F_OK), 0);
 }
 
 class RenderedCamera : public ProgramTest {

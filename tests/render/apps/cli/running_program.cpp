@@ -73,7 +73,7 @@ void RunningProgram::start(const std::vector<std::string>& arguments,
 
 RunningProgram::~RunningProgram() {
   if (child_ > 0) {
-    ::kill(child_, SIGKILL);
+    send(SIGKILL);
     ::waitpid(child_, nullptr, 0);
   }
   ::close(terminal_);
@@ -82,7 +82,7 @@ RunningProgram::~RunningProgram() {
 
 void RunningProgram::give_up() {
   ADD_FAILURE() << "waited in vain; shown so far: " << shown_;
-  ::kill(child_, SIGKILL);
+  send(SIGKILL);
   ended_ = true;
 }
 
@@ -135,7 +135,10 @@ void RunningProgram::let_go() {
   gate_ = -1;
 }
 
-void RunningProgram::send(int signal) const { ::kill(child_, signal); }
+/// To none once it has been waited for: -1 would mean all processes there are.
+void RunningProgram::send(int signal) const {
+  if (child_ > 0) ::kill(child_, signal);
+}
 
 ProgramRun RunningProgram::finish() {
   const auto limit = Clock::now() + patience;
