@@ -1,6 +1,15 @@
-# OpenImageIO for the one module (and the tests that read pictures back). Debian's package exports
-# include directories that are not there (/usr/include/opencv4), which CMake refuses.
-find_package(OpenImageIO 2.4 REQUIRED)
+# OpenImageIO for the one module, and for the tests, which read pictures back.
+if(BOULE_TESTS OR BOULE_BENCH)
+  find_package(OpenImageIO 2.4 REQUIRED)
+else()
+  find_package(OpenImageIO 2.4 QUIET)
+endif()
+if(NOT OpenImageIO_FOUND)
+  message(STATUS "Without OpenImageIO (libopenimageio-dev): pictures are PNG and PPM")
+  return()
+endif()
+# Debian's package exports include directories that are not there (/usr/include/opencv4), which CMake
+# refuses.
 foreach(property INTERFACE_INCLUDE_DIRECTORIES INTERFACE_SYSTEM_INCLUDE_DIRECTORIES)
   get_target_property(listed OpenImageIO::OpenImageIO ${property})
   set(existing)

@@ -17,7 +17,7 @@ class Boule(CMakePackage):
 
     variant("python", default=True, description="The Python package")
     variant("mpi", default=False, description="Ranks of MPI that render together")
-    variant("images", default=True, description="Legends, PDF and SVG by pango")
+    variant("images", default=True, description="Legends, PDF and SVG by pango, EXR and more by OpenImageIO")
 
     depends_on("cxx", type="build")
     depends_on("cmake@3.25:", type="build")
@@ -30,7 +30,6 @@ class Boule(CMakePackage):
     depends_on("tomlplusplus")
     depends_on("fast-float")
     depends_on("boost")  # headers of Beast
-    depends_on("openimageio@2.4:")
     depends_on("libpng")
     depends_on("libjpeg-turbo")
     depends_on("libzip")
@@ -41,11 +40,12 @@ class Boule(CMakePackage):
     depends_on("xxhash")
     depends_on("mpi", when="+mpi")
     depends_on("hdf5")
+    depends_on("openimageio@2.4:", when="+images")
     depends_on("pango", when="+images")
     with_python = "+python"
     extends("python@3.9:", when=with_python)
-    depends_on("py-pybind11@2.10:", when=with_python, type="build")
-    depends_on("py-numpy@1.21:1", when=with_python, type=("build", "run"))
+    depends_on("py-pybind11@2.12:", when=with_python, type="build")  # numpy 2
+    depends_on("py-numpy@1.21:2", when=with_python, type=("build", "run"))
 
     generator("ninja")
 
