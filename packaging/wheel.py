@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""wheel.py FOLDER: makes a wheel in FOLDER that runs on other distributions than this one.
+"""wheel.py FOLDER [PYTHON...]: makes a wheel in FOLDER that runs on other distributions than this one.
 
 Inside are the Python package, the program and the shared libraries of both but for those of the C and
 C++ runtime, with their licences. Its tag names the oldest glibc that it runs with: that of the newest
 symbol in it. Pictures are PNG and PPM; the module for other formats needs OpenImageIO and is left out.
-It is for the CPython that runs this script. Needs pip, setuptools, wheel, binutils and patchelf.
+It is for the CPython that runs this script, or one for each PYTHON: all but the bindings is compiled
+once then. Each has pip, setuptools, wheel, and a pybind11 that knows it. Needs binutils and patchelf.
 """
 import hashlib
 import os
@@ -80,9 +81,18 @@ def newest_glibc(files):
 
 
 def main():
-    if len(sys.argv) != 2 or sys.argv[1].startswith("-"):
+    if len(sys.argv) < 2 or sys.argv[1].startswith("-"):
         sys.exit(__doc__)
     target = pathlib.Path(sys.argv[1]).resolve()
+    if len(sys.argv) > 2:
+        with tempfile.TemporaryDirectory() as build:
+            for python in sys.argv[2:]:
+                subprocess.run([python, __file__, target], check=True, env=os.environ | {"BOULE_BUILD_FOLDER": build})
+        return
+    make_wheel(target)
+
+
+def make_wheel(target):
     with tempfile.TemporaryDirectory() as work:
         work = pathlib.Path(work)
         subprocess.run([sys.executable, "-m", "pip", "wheel", ROOT, "--no-deps", "--no-build-isolation",

@@ -17,6 +17,7 @@
 #include "render/apps/python/scenes/scenes.h"
 #include "render/apps/python/scenes/sphere_arrays.h"
 #include "render/apps/python/scenes/tables.h"
+#include "render/apps/python/values/arrays.h"
 #include "render/apps/python/values/call.h"
 #include "render/apps/python/values/errors.h"
 #include "render/files/particle_file/bridge/bridge_reader.h"
@@ -38,6 +39,7 @@ PYBIND11_MODULE(_core, module) {
   using namespace boule::python;
   module.doc() = "The compiled part of boule. Use boule itself.";
   module.attr("version") = boule::library_version();
+  module.attr("numpy_below") = numpy_below;
   bind_errors(module);
   bind_tables(module);
   bind_scenes(module);

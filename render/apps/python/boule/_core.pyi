@@ -6,6 +6,7 @@ from . import Error as Error
 from . import Picture as Picture
 
 version: str
+numpy_below: int
 render_choices: dict[str, Any]
 look_choices: dict[str, Any]
 file_choices: list[str]

@@ -191,7 +191,7 @@ std::string repr_of(const Picture& picture) {
 
 /// Points that are counted from `origin`, in double, as the scene counts them; 0 stays: a miss.
 py::object counted_from_zero(const py::object& points, const Vec3d& origin) {
-  const py::module_ numpy = py::module_::import("numpy");
+  const py::module_ numpy = need_numpy();
   const py::object is_hit = points.attr("any")(py::arg("axis") = -1, py::arg("keepdims") = true);
   const py::object zero = numpy.attr("array")(py::make_tuple(origin.x, origin.y, origin.z));
   return numpy.attr("where")(is_hit, zero + points, 0.0);
@@ -214,7 +214,7 @@ py::dict aovs_of(const py::object& picture) {
     if (found.size() == 1) {
       aovs[key] = found[0];
     } else {
-      aovs[key] = py::module_::import("numpy").attr("stack")(found, py::arg("axis") = -1);
+      aovs[key] = need_numpy().attr("stack")(found, py::arg("axis") = -1);
     }
     if (std::string_view(aov.name) == "position" && !(origin == Vec3d{}))
       aovs[key] = counted_from_zero(aovs[key], origin);

@@ -1,5 +1,6 @@
 #include "render/apps/python/values/arrays.h"
 
+#include <cstdlib>
 #include <utility>
 
 #include "render/apps/python/values/call.h"
@@ -46,7 +47,17 @@ py::array to_floats(const py::array& array, const std::string& name, const Numbe
 
 }  // namespace
 
-void need_numpy() { py::module_::import("numpy"); }
+py::module_ need_numpy() {
+  py::module_ numpy = py::module_::import("numpy");
+  static bool is_known = false;  // the GIL guards it
+  if (is_known) return numpy;
+  const auto version = numpy.attr("__version__").cast<std::string>();
+  if (std::atoi(version.c_str()) >= numpy_below)
+    throw py::import_error("numpy is " + version + ", but this boule was built for numpy<" +
+                           std::to_string(numpy_below));
+  is_known = true;
+  return numpy;
+}
 
 bool is_masked(const py::object& argument) {
   return py::hasattr(argument, "mask") && py::hasattr(argument, "filled");
@@ -54,8 +65,7 @@ bool is_masked(const py::object& argument) {
 
 void refuse_masked(const py::object& argument, const std::string& name) {
   if (!is_masked(argument)) return;
-  const auto masked =
-      py::module_::import("numpy").attr("count_nonzero")(argument.attr("mask")).cast<long>();
+  const auto masked = need_numpy().attr("count_nonzero")(argument.attr("mask")).cast<long>();
   if (masked == 0) return;
   throw_error(name, "is a masked array, and " + std::to_string(masked) +
                         " of its values are masked: leave them out (compressed()) or fill them "
@@ -65,7 +75,7 @@ void refuse_masked(const py::object& argument, const std::string& name) {
 py::array to_array(const py::object& argument, const std::string& name) {
   refuse_masked(argument, name);
   try {
-    return py::array::ensure(py::module_::import("numpy").attr("asarray")(argument));
+    return py::array::ensure(need_numpy().attr("asarray")(argument));
   } catch (py::error_already_set& error) {
     if (error.matches(PyExc_MemoryError) || error.matches(PyExc_KeyboardInterrupt)) throw;
     throw_error(name, "numpy makes no array of it: " + std::string(py::str(error.value())));

@@ -69,9 +69,13 @@ pybind11::array to_array(const pybind11::object& argument, const std::string& na
 /// "float32 of shape (5, 3)".
 std::string describe(const pybind11::array& array);
 
-/// Loads numpy. pybind11 does it otherwise, inside the lock of a static variable: of two threads
-/// that make their first arrays, one would wait for that lock, the other for the GIL.
-void need_numpy();
+/// The arrays of numpy 2 lie otherwise in memory, which pybind11 knows from 2.12 on.
+inline constexpr int numpy_below = PYBIND11_VERSION_HEX < 0x020C0000 ? 2 : 3;
+
+/// Loads numpy; an ImportError if it is not below that version. pybind11 loads it otherwise, inside
+/// the lock of a static variable: of two threads that make their first arrays, one would wait for
+/// that lock, the other for the GIL.
+pybind11::module_ need_numpy();
 
 /// An array without initial values. Throws MemoryError.
 template <class Number>

@@ -17,9 +17,13 @@ rm -rf "$work/source"
 ls "$work/installed/boule"
 cd "$work"
 env PYTHONPATH="$work/installed" "$python" - <<'PYTHON'
+import importlib.metadata
+
 import boule
 
 assert "installed" in boule.__file__, boule.__file__
+needed = importlib.metadata.distribution("boule").requires
+assert needed == [f"numpy<{boule._core.numpy_below},>=1.21"], needed
 scene = boule.Scene()
 scene.add_sphere()
 boule.render(scene, size=(32, 24)).save("ball.png")
