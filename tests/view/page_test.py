@@ -214,6 +214,18 @@ class Page(unittest.TestCase):
                 })""")
         self.assertTrue(same)
 
+    def test_a_lost_connection_keeps_the_save(self):
+        browser = self.browser
+        browser.script("""
+            const {session} = bouleView;
+            session.on('saving', ({share}) => { window.lastShare = share; });
+            session.ask({type: 'save', pane: 0, format: 'png', spp: 3000}, 'saved')
+                .then(({url}) => { window.saved = url; }, ({message}) => { window.saved = message; });""")
+        share = browser.wait("window.lastShare", "a picture that is being saved")
+        browser.script("window.lastShare = 1; bouleView.session.connection.socket.close()")
+        self.assertGreaterEqual(browser.wait("window.lastShare < 1 && window.lastShare", "that it goes on"), share)
+        self.assertRegex(browser.wait("window.saved", "the saved picture"), "^/picture/")
+
     def test_orders_change_and_panes_agree(self):
         browser = self.browser
         finished = browser.pixels()
@@ -511,6 +523,49 @@ class Series(unittest.TestCase):
         browser.find("#play").click()
         self.assertEqual(browser.find("#play").text, "Play")
         self.assertEqual(browser.complaints(), [])
+
+
+    def test_lines_fog_and_ghosts(self):
+        browser = self.browser
+        browser.open(self.server.url)
+        looks = [browser.pixels()]
+
+        def expect_another(condition, what):
+            browser.wait(condition, what)
+            browser.rest()
+            self.assertNotIn(browser.pixels(), looks)
+            looks.append(browser.pixels())
+
+        def enter(field, text):
+            browser.find(field).clear()
+            browser.find(field).send_keys(text, Keys.ENTER)
+
+        self.assertFalse(browser.find("#opacity").is_enabled())
+        enter("#ghost", "x > 0.5")
+        expect_another("bouleView.session.state.particles.look.ghost === 'x > 0.5'", "ghosts")
+        browser.find("#opacity").send_keys(Keys.ARROW_RIGHT)
+        expect_another("bouleView.session.state.particles.look.opacity === 0.25", "an opacity")
+        self.assertEqual(browser.find("#opacity-text").text, "25 %")
+        enter("#outline", "4")
+        expect_another("bouleView.session.state.settings.outline === 4", "lines")
+        browser.find("#fog").send_keys(Keys.END)
+        expect_another("bouleView.session.state.settings.fog === 1", "fog")
+
+        enter("#ghost", "x >")
+        browser.wait("document.querySelector('#ghost-wrong')?.textContent", "what is wrong")
+        enter("#ghost", "")
+        browser.wait("bouleView.session.state.particles.look.ghost === ''", "no ghosts")
+        browser.wait("document.querySelector('#ghost-wrong') === null", "that it is right")
+        browser.rest()
+        self.assertEqual(browser.complaints(), [])
+
+    def test_controls_say_what_they_do(self):
+        browser = self.browser
+        browser.open(self.server.url)
+        silent = browser.script("""
+            return [...document.querySelectorAll('#panel :is(select, input:not([type=radio]), button[id])')]
+                .filter(one => !one.title && !one.closest('[hidden]')).map(one => one.id)""")
+        self.assertEqual(set(silent) - {"draw-rays"}, set())
 
 
 if __name__ == "__main__":

@@ -35,6 +35,13 @@ struct KindText {
   friend bool operator==(const KindText&, const KindText&) = default;
 };
 
+/// An option as it was given: its name without "--", and its text, which a flag lacks.
+struct GivenOption {
+  std::string name, text;
+
+  friend bool operator==(const GivenOption&, const GivenOption&) = default;
+};
+
 /// A plane that cuts particles: what is on the side of its normal is taken away.
 struct ClipChoice {
   Vec3d point, normal;
@@ -87,6 +94,7 @@ struct LookOptions {
   std::optional<double> fov{};                    ///< of a pinhole, degrees
   std::optional<double> margin{};  ///< around the particles, as a share of the picture
   std::string first{};  ///< the first option of these that was given: "--look"; empty: none
+  std::vector<GivenOption> given{};  ///< all of these on the command line
 };
 
 /// The floor of a scene, in the coordinates of the file: a plane through `point` with the normal

@@ -38,6 +38,9 @@ view::ViewSettings first_settings(const RenderCommand& command, const Scene& sce
   settings.spp = std::min(command.spp.value_or(scene.image.spp), view::max_view_spp);
   settings.max_depth =
       std::min(command.max_depth.value_or(scene.render.max_depth), view::max_view_depth);
+  const RenderOptions options = options_of(command, scene);
+  settings.outline = options.outline;
+  settings.fog = options.fog;
   settings.panes = {{command.order.value_or(PixelOrder::progressive), command.solver,
                      command.method.value_or(scene.render.method), command.shadow_epsilon}};
   return settings;

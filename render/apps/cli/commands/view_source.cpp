@@ -21,23 +21,16 @@ const char* kind_of(const std::string& path, bool particles) {
   return path.ends_with(".npy") ? "spheres" : "toml";
 }
 
-std::string vector_text(const Vec3d& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
-
-/// The options of particles that the page does not change.
+/// The options of particles that the page does not change, as they were given.
 std::string fixed_options(const LookOptions& look) {
+  constexpr const char* changed[] = {"color", "map",  "range", "ghost", "opacity", "outline-by",
+                                     "frame", "view", "roll",  "ortho", "fov",     "margin"};
   std::string text;
-  if (look.look != Look::paper) text += " --look " + std::string(name_of(look.look));
-  if (look.quick) text += " --quick";
-  if (look.floor) text += " --floor";
-  if (look.water) text += " --water";
-  if (!look.topology.empty()) text += " --topology " + shell_word(look.topology);
-  if (!look.format.empty()) text += " --input-format " + look.format;
-  if (!look.columns.empty())
-    text += " --columns " + shell_word(fmt::format("{}", fmt::join(look.columns, ",")));
-  if (!look.radius.empty()) text += " --radius " + shell_word(look.radius);
-  if (look.scale) text += fmt::format(" --scale {}", *look.scale);
-  if (!look.select.empty()) text += " --select " + shell_word(look.select);
-  if (look.up) text += " --up " + vector_text(*look.up);
+  for (const auto& [name, value] : look.given) {
+    if (std::find(std::begin(changed), std::end(changed), name) != std::end(changed)) continue;
+    text += " --" + name;
+    if (!value.empty()) text += " " + shell_word(value);
+  }
   return text;
 }
 
@@ -62,7 +55,8 @@ Status ViewSource::open() {
   const bool particles = is_particle_input(path, job_.look);
   if (!particles && !job_.look.first.empty()) return not_particles(path, job_.look.first);
   facts_.kind = kind_of(path, particles);
-  facts_.look = {job_.look.color, job_.look.map, job_.look.range};
+  const LookOptions& look = job_.look;
+  facts_.look = {look.color, look.map, look.range, look.ghost, look.opacity, look.outline_by};
   if (particles) facts_.shared_options = fixed_options(job_.look);
   if (auto done = particles && !job_.frames ? find_frames() : Status(); !done) return done;
   make_loader();
@@ -104,6 +98,9 @@ Result<LookOptions> ViewSource::look_with(const view::ParticleLook& look) const 
   options.color = look.color;
   options.map = look.map;
   options.range = look.range;
+  options.ghost = look.ghost;
+  options.opacity = look.opacity;
+  options.outline_by = look.outline_by;
   if (has_color_map(options.color)) return options;
   options.map.clear();  // what has no map needs none
   options.range.reset();
@@ -115,7 +112,12 @@ Result<LoadedScene> ViewSource::load(const view::ParticleLook& look, int frame) 
   if (!options) return options.error();
   auto loaded =
       loader_->load_as(options.value(), facts_.frames ? std::optional(frame) : std::nullopt);
-  if (loaded && facts_.kind == "particles") particles_ = loaded.value().particles.front();
+  if (!loaded || facts_.kind != "particles") return loaded;
+  particles_ = loaded.value().particles.front();
+  // In a series fog has the depths of its first camera, but this one moves.
+  ImageSettings& image = loaded.value().scene.image;
+  image.fog_from.reset();
+  image.fog_to.reset();
   return loaded;
 }
 
@@ -142,6 +144,9 @@ std::string ViewSource::options_of(const view::ParticleLook& look, int frame) co
   }
   if (facts_.kind != "particles") return text;
   text += radius_option();
+  if (!look.ghost.empty()) text += " --ghost " + shell_word(look.ghost);
+  if (look.opacity) text += fmt::format(" --opacity {}", *look.opacity);
+  if (!look.outline_by.empty()) text += " --outline-by " + shell_word(look.outline_by);
   if (!look.color.empty()) text += " --color " + shell_word(look.color);
   if (!has_color_map(look.color)) return text;
   if (!look.map.empty()) text += " --map " + shell_word(look.map);

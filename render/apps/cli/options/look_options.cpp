@@ -36,8 +36,9 @@ void add_shape_options(CLI::App& app, LookOptions& look) {
 std::optional<UsageError> check_look_options(const CLI::App& app, LookOptions& look) {
   for (const CLI::Option* option : app.get_options()) {
     if (option->get_group() != look_heading || option->count() == 0) continue;
-    look.first = "--" + option->get_lnames().front();
-    break;
+    const std::string& name = option->get_lnames().front();
+    if (look.first.empty()) look.first = "--" + name;
+    look.given.push_back({name, option->get_expected_max() > 0 ? option->results().back() : ""});
   }
   const std::string help = "boule " + app.get_name() + " --help";
   const bool has_map = may_have_color_map(look.color);

@@ -19,7 +19,7 @@ void add_look_options(CLI::App& app, LookOptions& look);
 void add_shape_options(CLI::App& app, LookOptions& look);
 
 /// What is wrong with them together, once they are parsed: options that need or exclude each
-/// other; none if nothing is. Sets look.first.
+/// other; none if nothing is. Sets look.first and look.given.
 std::optional<UsageError> check_look_options(const CLI::App& app, LookOptions& look);
 
 }  // namespace boule::cli

@@ -157,7 +157,7 @@ void add_render(CLI::App& app, RenderCommand& command) {
 void add_page_choices(CLI::App& app, RenderJob& job) {
   add_rows(app, render_choices(), job, [](const auto& row) {
     return row.name == "size" || row.name == "spp" || row.name == "method" ||
-           row.name == "shadow_epsilon";
+           row.name == "shadow_epsilon" || row.name == "outline" || row.name == "fog";
   });
   add_whole(app, "--max-depth", job.max_depth, 0, view::max_view_depth,
             "Bounces after the first hit");

@@ -97,6 +97,11 @@ std::optional<int> small_whole(MessageKeys& keys, const char* key, int low, int 
   return found ? std::optional(static_cast<int>(*found)) : std::nullopt;
 }
 
+std::optional<float> small_number(MessageKeys& keys, const char* key, double low, double high) {
+  const auto found = keys.number(key, low, high);
+  return found ? std::optional(static_cast<float>(*found)) : std::nullopt;
+}
+
 Result<ClientMessage> read_settings(MessageKeys& keys) {
   SettingsMessage message;
   message.number = keys.counter("number");
@@ -112,8 +117,9 @@ Result<ClientMessage> read_settings(MessageKeys& keys) {
   }
   message.spp = small_whole(keys, "spp", 1, max_view_spp);
   message.max_depth = small_whole(keys, "max_depth", 0, max_view_depth);
-  if (const auto stops = keys.number("exposure", -100, 100))
-    message.exposure = static_cast<float>(*stops);
+  message.exposure = small_number(keys, "exposure", -100, 100);
+  message.outline = small_number(keys, "outline", 0, 100);
+  message.fog = small_number(keys, "fog", 0, 1);
   message.pace = keys.number("pace", 0, max_pace);
   if (message.pace && *message.pace > 0 && *message.pace < min_pace)
     keys.report("pace", "expected 0 or at least 1000 pixels a second");
@@ -125,6 +131,15 @@ Result<ClientMessage> read_particles(MessageKeys& keys) {
   message.number = keys.counter("number");
   message.color = keys.text("color");
   message.map = keys.text("map");
+  message.ghost = keys.text("ghost");
+  message.outline_by = keys.text("outline_by");
+  if (const Json* const opacity = keys.find("opacity")) {
+    if (opacity->is_null()) {
+      message.opacity.emplace();
+    } else if (const auto share = keys.number("opacity", 0, 1)) {
+      message.opacity.emplace(share);
+    }
+  }
   if (const Json* const range = keys.find("range")) {
     if (range->is_null()) {
       message.range.emplace();
@@ -180,7 +195,9 @@ Result<ClientMessage> read_texts(MessageKeys& keys) {
 }
 
 Result<ClientMessage> read_stop_saving(MessageKeys& keys) {
-  return finished(keys, StopSavingMessage{});
+  StopSavingMessage message;
+  message.id = keys.counter("id");
+  return finished(keys, message);
 }
 
 Result<ClientMessage> read_ack(MessageKeys& keys) {

@@ -16,6 +16,12 @@ namespace boule::view {
 
 /// `client` below is who sent the message; its reader leaves it at 0.
 
+/// Whether number `a` of a message comes after `b`. They go round: 0 follows the largest, so that
+/// there is always a next one, whatever a client has sent.
+inline bool is_later(std::uint32_t a, std::uint32_t b) {
+  return static_cast<std::int32_t>(a - b) > 0;
+}
+
 /// The longest message, in bytes.
 inline constexpr std::size_t longest_message = 16384;
 
@@ -40,14 +46,15 @@ struct SettingsMessage {
   std::optional<Difference> difference;
   std::optional<std::array<int, 2>> size;
   std::optional<int> spp, max_depth;
-  std::optional<float> exposure;
+  std::optional<float> exposure, outline, fog;
   std::optional<double> pace;
 };
 
 struct ParticlesMessage {
   std::uint32_t number = 0;
-  std::optional<std::string> color, map;
+  std::optional<std::string> color, map, ghost, outline_by;
   std::optional<std::optional<std::array<double, 2>>> range;
+  std::optional<std::optional<double>> opacity;
 };
 
 struct FrameMessage {
@@ -68,7 +75,10 @@ struct SaveMessage {
   int client = 0;
 };
 
-struct StopSavingMessage {};
+struct StopSavingMessage {
+  std::uint32_t id = 0;  ///< of the SaveMessage
+  int client = 0;
+};
 
 struct TextsMessage {
   std::uint32_t id = 0;

@@ -37,6 +37,8 @@ struct ViewSettings {
   int spp = 1;                     ///< 1 .. max_view_spp
   int max_depth = 5;               ///< 0 .. max_view_depth
   float exposure = 0;              ///< stops, -100 .. 100
+  float outline = 0;               ///< width of lines in pixels, 0 .. 100
+  float fog = 0;                   ///< as RenderOptions, 0 .. 1
   double pace = 0;                 ///< pixels a second in each pane; 0: all it can
 
   friend bool operator==(const ViewSettings&, const ViewSettings&) = default;
@@ -47,10 +49,13 @@ inline constexpr int max_view_spp = 65536;
 inline constexpr int max_view_depth = 1000;
 inline constexpr double min_pace = 1000, max_pace = 1e9;
 
-/// What a client chooses of a particle file's colours. Empty: as the file asks for.
+/// What a client chooses of how a particle file looks. Empty: as the file asks for.
 struct ParticleLook {
   std::string color, map;
   std::optional<std::array<double, 2>> range{};  ///< none: from the data
+  std::string ghost{};                           ///< which particles are ghosts
+  std::optional<double> opacity{};               ///< of ghosts, 0 .. 1
+  std::string outline_by{};                      ///< what lines go around
 
   friend bool operator==(const ParticleLook&, const ParticleLook&) = default;
 };

@@ -30,9 +30,11 @@ export class Connection {
     this.socket = socket;
   }
 
-  /** Sends a message, or drops it where nobody listens. */
+  /** Sends a message, or drops it where nobody listens: whether somebody does. */
   send(message) {
-    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(JSON.stringify(message));
+    const isOpen = this.socket.readyState === WebSocket.OPEN;
+    if (isOpen) this.socket.send(JSON.stringify(message));
+    return isOpen;
   }
 
   async closed() {

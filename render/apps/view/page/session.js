@@ -2,18 +2,21 @@
 
 import {learnKinds} from './camera.js';
 
+/** Whether a number of a message comes after another one. They go round: 0 follows the largest. */
+export const isLater = (a, b) => ((a - b) | 0) > 0;
+
 export class Session {
   constructor() {
     this.state = null;
     this.camera = null;
-    this.number = 0;        // the last number that was sent
-    this.cameraNumber = 0;  // the last one of a camera
+    this.number = null;        // the last number that was sent or came; null before the first state
+    this.cameraNumber = null;  // the last one of a camera
     this.startCamera = null;
     this.startSize = null;
     this.listeners = new Map();
     this.isMoving = false;
     this.waiting = new Map();  // id -> what to do with the answer
-    this.id = 0;
+    [this.id] = crypto.getRandomValues(new Uint32Array(1));  // another one than other pages have
     this.pending = null;  // a camera that waits for the next picture of the screen
   }
 
@@ -36,9 +39,9 @@ export class Session {
   /** Hands an answer, or an error, to who asked; whether somebody did. */
   answer(message) {
     const isError = message.type === 'error';
+    if (isError && message.about === 'stop_saving') return true;  // what is over already
     for (const [id, {type, resolve, reject}] of this.waiting) {
-      const isOurs = message.id === id || (isError && message.about === 'save' && type === 'saved');
-      if (!isOurs || (!isError && message.type !== type)) continue;
+      if (message.id !== id || (!isError && message.type !== type)) continue;
       this.waiting.delete(id);
       if (isError) reject(new Error(message.text));
       else resolve(message);
@@ -56,33 +59,53 @@ export class Session {
       this.startSize = state.start?.size ?? state.settings.size;
     }
     if (isFirst) this.camera = null;
+    const isBack = this.number === null;
+    if (isBack) this.number = this.cameraNumber = state.number;
     this.takeCamera(state);
     this.tell('state', state);
+    // The server knows by the id that it was asked before.
+    if (isBack) this.waiting.forEach(({message}) => this.connection.send(message));
   }
 
   /** Takes the camera of the server, which another page may have moved. One from before our last is old,
    * and while we move it ours counts. */
   takeCamera({number, camera}) {
-    this.number = Math.max(this.number, number);  // all pages count on from the largest
-    if (this.camera && (number < this.cameraNumber || this.pending || this.isMoving)) return;
+    if (isLater(number, this.number)) this.number = number;  // all pages count on from the latest
+    if (this.camera && (isLater(this.cameraNumber, number) || this.pending || this.isMoving)) return;
     this.camera = structuredClone(camera);
     this.tell('camera', this.camera);
   }
 
-  /** A connection began: the numbers count from what the server shows. */
+  /** A connection began: the numbers count from what the server shows. A picture that is being saved
+   * is still wanted. */
   restart() {
     this.camera = null;
     this.pending = null;
     this.isMoving = false;
-    this.number = 0;
-    this.cameraNumber = 0;
-    for (const {reject} of this.waiting.values()) reject(new Error('the connection was lost'));
-    this.waiting.clear();
+    this.number = this.cameraNumber = null;
+    this.giveUp('the connection was lost', (type) => type !== 'saved');
+  }
+
+  /** No answer is waited for any more, of these types. */
+  giveUp(why, isOver = () => true) {
+    for (const [id, {type, reject}] of this.waiting) {
+      if (!isOver(type)) continue;
+      this.waiting.delete(id);
+      reject(new Error(why));
+    }
+  }
+
+  /** The picture that is being saved is not wanted any more. */
+  stopSaving() {
+    for (const [id, {type}] of this.waiting) {
+      if (type !== 'saved' || this.connection.send({type: 'stop_saving', id})) continue;
+      this.giveUp('stopped');  // the server hears of it by hearing nothing
+    }
   }
 
   /** Sends a message with the next number, which it returns. */
   sendNumbered(message) {
-    this.number += 1;
+    this.number = (this.number + 1) >>> 0;
     this.connection.send({...message, number: this.number});
     return this.number;
   }
@@ -121,12 +144,12 @@ export class Session {
   /** Sends a message that is answered by one of the type `answer`: a promise of it. */
   ask(message, answer) {
     this.flush();
-    this.id += 1;
-    const id = this.id;
+    this.id = (this.id + 1) >>> 0;
+    const {id} = this;
     // The server answers the newest question of a kind.
     for (const [old, {type}] of this.waiting) if (type === answer) this.waiting.delete(old);
     return new Promise((resolve, reject) => {
-      this.waiting.set(id, {type: answer, resolve, reject});
+      this.waiting.set(id, {type: answer, resolve, reject, message: {...message, id}});
       this.connection.send({...message, id});
     });
   }

@@ -1,7 +1,7 @@
 // The controls of the panes and of the picture's quality.
 
 import {byId, fillSelect, make, onNumber, showValue} from './dom.js';
-import {differenceName, epsilonName, methodName, orderName, paceName, plain} from './words.js';
+import {differenceName, epsilonName, meanings, methodName, orderName, paceName, plain} from './words.js';
 
 const rows = [
   {key: 'order', label: 'Order', choices: 'orders', name: orderName},
@@ -120,7 +120,7 @@ export class Settings {
     const body = make('tbody');
     this.selects = Array.from({length: count}, () => ({}));
     for (const row of rows) {
-      const line = make('tr', {}, make('th', {scope: 'row', textContent: row.label}));
+      const line = make('tr', {}, make('th', {scope: 'row', textContent: row.label, title: meanings[row.key]}));
       for (let index = 0; index < count; index += 1) line.append(this.makeCell(row, index, count));
       body.append(line);
     }
@@ -130,7 +130,9 @@ export class Settings {
 
   makeCell(row, index, count) {
     const of = count > 1 ? ` of picture ${'AB'[index]}` : '';
-    const select = make('select', {'aria-label': row.label + of, id: `${row.key}-${index}`});
+    const select = make('select', {
+      'aria-label': row.label + of, id: `${row.key}-${index}`, title: meanings[row.key],
+    });
     this.selects[index][row.key] = select;
     const cell = make('td', {}, select);
     if (row.key !== 'shadow_epsilon') {

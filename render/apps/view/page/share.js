@@ -10,7 +10,7 @@ export class Share {
     byId('copy-toml').addEventListener('click', () => this.copy('camera', 'Camera as TOML'));
     byId('copy-command').addEventListener('click', () => this.copy('command', 'Command line'));
     byId('save').addEventListener('click', () => this.save());
-    byId('stop-saving').addEventListener('click', () => session.connection.send({type: 'stop_saving'}));
+    byId('stop-saving').addEventListener('click', () => session.stopSaving());
     window.addEventListener('resize', () => fitHeight(byId('copied-text')));
     session.on('saving', ({share}) => { byId('saving-share').value = share; });
     session.on('state', ({settings, choices}) => {

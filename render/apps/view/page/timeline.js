@@ -1,6 +1,7 @@
 // The time line of a series.
 
 import {byId, short} from './dom.js';
+import {isLater} from './session.js';
 
 const shortestFrame = 100;  // milliseconds that a frame is shown at least
 const longestWait = 600;    // milliseconds after which a frame's first look is enough
@@ -9,6 +10,7 @@ export class Timeline {
   constructor(session) {
     this.session = session;
     this.playing = false;
+    this.number = null;  // of the frame that is waited for
     byId('timeline').addEventListener('submit', (event) => event.preventDefault());
     byId('frame').addEventListener('input', () => this.goTo(Number(byId('frame').value)));
     byId('play').addEventListener('click', () => this.play(!this.playing));
@@ -42,10 +44,11 @@ export class Timeline {
 
   // The next frame follows once this one is finished, or was looked at for a while.
   shown(header) {
-    if (!this.playing || header.number < this.number || header.pane !== 0) return;
+    if (!this.playing || this.number === null || header.pane !== 0) return;
+    if (isLater(this.number, header.number)) return;
     const age = performance.now() - this.asked;
     if (!header.finished && age < longestWait) return;
-    this.number = Infinity;
+    this.number = null;
     setTimeout(() => { if (this.playing) this.step(1, true); }, Math.max(0, shortestFrame - age));
   }
 

@@ -5,14 +5,16 @@ import {Connection} from './connection.js';
 import {byId, counted, make, refuse, sentence, short} from './dom.js';
 import {FrameReader} from './frames.js';
 import {Gestures} from './gestures.js';
+import {Look} from './look.js';
 import {Overlay} from './overlay.js';
 import {Panes} from './panes.js';
 import {Particles} from './particles.js';
 import {Rays} from './rays.js';
-import {Session} from './session.js';
+import {isLater, Session} from './session.js';
 import {Settings} from './settings.js';
 import {Share} from './share.js';
 import {Timeline} from './timeline.js';
+import {meanings} from './words.js';
 
 const links = {
   connecting: 'Connecting …',
@@ -35,6 +37,7 @@ const gestures = new Gestures(byId('stage'), session, {
 new Settings(session, panes);
 new CameraForm(session, gestures);
 new Particles(session);
+new Look(session);
 new Share(session);
 
 async function clicked(pane, x, y, mode = document.querySelector('#click-mode input:checked').value) {
@@ -56,6 +59,13 @@ function showLink(kind) {
   link.textContent = links[kind];
   document.body.dataset.link = kind;
   if (kind === 'connecting') session.restart();
+  if (kind === 'refused') session.giveUp('the server was started anew');
+}
+
+for (const [id, meaning] of Object.entries(meanings)) {
+  for (const element of [byId(id), document.querySelector(`label[for=${id}]`)]) {
+    if (element) element.title = meaning;
+  }
 }
 
 document.querySelectorAll('[data-side]').forEach((button) => button.addEventListener('click', () => {
@@ -112,7 +122,7 @@ session.on('state', showScene);
 session.on('problem', showProblem);
 session.on('hide', () => rays.hide());
 session.on('error', showError);
-session.on('state', ({number}) => { if (number > problemNumber) hideProblem(); });
+session.on('state', ({number}) => { if (isLater(number, problemNumber)) hideProblem(); });
 document.addEventListener('right', ({target}) => {
   entered = target.id;
   hideProblem();

@@ -9,6 +9,50 @@ export const methodName = (method) => methods[method] ?? method;
 export const cameraName = (type) => type.replaceAll('_', ' ');
 export const differenceName = (difference) => differences[difference] ?? difference;
 
+const outlineRules = {
+  '': 'by the style', object: 'every ball', depth: 'what lies clearly behind', kind: 'each kind',
+  molecule: 'each molecule', chain: 'each chain', residue: 'each residue',
+};
+export const outlineRuleName = (rule) => outlineRules[rule] ?? rule;
+
+/** What a control does, by its id: shown where the mouse rests, and read to those who do not see. */
+export const meanings = {
+  color: 'What decides the colour of a particle: its element, or a number that the file has for it.',
+  map: 'The colours from the least number to the greatest.',
+  'range-low': 'Particles with this number, or less, have the first colour.',
+  'range-high': 'Particles with this number, or more, have the last colour.',
+  'range-data': 'Takes the range that nearly all particles of the file are in.',
+  outline: 'How wide the dark lines around things are, in pixels. 0: no lines.',
+  fog: 'The farther away something is, the more it fades into the background.',
+  'outline-by': 'What a dark line goes around. Between things of one group there is none.',
+  ghost: 'Which particles you see through, such as: chain != \'L\', or: type == 2 && z > 5. Empty: none.',
+  opacity: 'How much a ghost hides of what is behind it.',
+  compare: 'A second picture beside the first one. They differ in what you choose here.',
+  order: 'Which pixel is rendered when. Slow the speed down to see it.',
+  solver: 'How a ray finds the sphere that it meets. Robust is right always, fast nearly always.',
+  method: 'Whitted: sharp shadows, mirrors and glass. Paths: also the light that goes from thing to thing.',
+  shadow_epsilon: 'How a shadow ray leaves the surface that it starts on. Exact needs no help; the others are the usual tricks.',
+  difference: 'A third picture: where the two differ, and by how much.',
+  pace: 'Slows rendering down, so that you can watch.',
+  'camera-type': 'How the camera turns directions into places in the picture.',
+  fit: 'Moves the camera so that everything is in the picture.',
+  reset: 'Goes back to the first camera.',
+  'full-screen': 'Shows the pictures alone. Esc brings the page back.',
+  axes: 'Shows which way x, y and z go.',
+  width: 'Of the picture, in pixels.',
+  'picture-height': 'Of the picture, in pixels.',
+  'size-window': 'Renders as many pixels as the window shows.',
+  'size-scene': 'Renders as many pixels as at the beginning.',
+  spp: 'How many rays go through each pixel. More make edges smoother and shadows less grainy, and take longer.',
+  'max-depth': 'How often light may be mirrored or go through glass on its way.',
+  exposure: 'Makes the picture brighter or darker. A stop doubles the light.',
+  'copy-toml': 'The camera, to be put into a scene file.',
+  'copy-command': 'The command that renders this picture without the page.',
+  save: 'Renders the picture at full quality, and downloads it. You may go on meanwhile.',
+  'stop-saving': 'The picture is not saved.',
+  play: 'Shows one frame after the other.',
+};
+
 /** 0.0001 as 1e-4, as it is typed. */
 export const plain = (number) => {
   const magnitude = Math.abs(number);

@@ -1,6 +1,5 @@
 #include "render/apps/view/session/mailbox.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "core/base/float_environment.h"
@@ -31,7 +30,9 @@ Status Mailbox::take(const ClientMessage& message) {
   return {};
 }
 
-void Mailbox::count(std::uint32_t number) { wish_.number = std::max(wish_.number, number); }
+void Mailbox::count(std::uint32_t number) {
+  if (is_later(number, wish_.number)) wish_.number = number;
+}
 
 Status Mailbox::apply(const CameraMessage& message) {
   auto camera = edited(wish_.camera, message.edit, origin_);
@@ -60,6 +61,8 @@ Status Mailbox::apply(const SettingsMessage& message) {
   settings.spp = message.spp.value_or(settings.spp);
   settings.max_depth = message.max_depth.value_or(settings.max_depth);
   settings.exposure = message.exposure.value_or(settings.exposure);
+  settings.outline = message.outline.value_or(settings.outline);
+  settings.fog = message.fog.value_or(settings.fog);
   settings.pace = message.pace.value_or(settings.pace);
   if (settings.panes.size() < 2) {
     if (message.difference && settings.difference != Difference::none)
@@ -75,9 +78,13 @@ Status Mailbox::apply(const SettingsMessage& message) {
 Status Mailbox::apply(const ParticlesMessage& message) {
   if (!limits_.particles)
     return Diagnostic::of("the colours of a scene file are in the file, not here");
-  if (message.color) wish_.look.color = *message.color;
-  if (message.map) wish_.look.map = *message.map;
-  if (message.range) wish_.look.range = *message.range;
+  ParticleLook& look = wish_.look;
+  look.color = message.color.value_or(look.color);
+  look.map = message.map.value_or(look.map);
+  look.range = message.range.value_or(look.range);
+  look.ghost = message.ghost.value_or(look.ghost);
+  look.opacity = message.opacity.value_or(look.opacity);
+  look.outline_by = message.outline_by.value_or(look.outline_by);
   count(message.number);
   news_.scene = true;
   return {};
@@ -101,24 +108,24 @@ Status Mailbox::apply(const PickMessage& message) {
   if (auto done = check_pane(message.pane); !done) return done;
   if (message.x >= wish_.settings.width) return Diagnostic::about("x", "lies beyond the picture");
   if (message.y >= wish_.settings.height) return Diagnostic::about("y", "lies beyond the picture");
-  news_.pick = message;
+  news_.picks[message.client] = message;
   return {};
 }
 
 Status Mailbox::apply(const SaveMessage& message) {
   if (auto done = check_pane(message.pane); !done) return done;
-  news_.save = message;
+  news_.saves[message.client] = message;
   return {};
 }
 
-Status Mailbox::apply(const StopSavingMessage&) {
-  news_.stop_saving = true;
+Status Mailbox::apply(const StopSavingMessage& message) {
+  news_.stops[message.client] = message;
   return {};
 }
 
 Status Mailbox::apply(const TextsMessage& message) {
   if (auto done = check_pane(message.pane); !done) return done;
-  news_.texts = message;
+  news_.texts[message.client] = message;
   return {};
 }
 

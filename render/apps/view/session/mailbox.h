@@ -4,6 +4,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <map>
 #include <mutex>
 #include <optional>
 
@@ -18,7 +19,7 @@ namespace boule::view {
 
 /// What the clients want to see. The newest counts.
 struct Wish {
-  std::uint32_t number = 0;  ///< the largest of a message that has changed it
+  std::uint32_t number = 0;  ///< the latest of a message that has changed it
   Camera camera;
   std::uint32_t camera_revision = 0;  ///< another one where the camera is another
   ViewSettings settings;
@@ -31,18 +32,20 @@ struct News {
   bool stop = false, connected = false, camera = false, settings = false, scene = false;
   bool camera_type = false;  ///< the camera is of another kind: keys were chosen
   int mover = 0;             ///< the client that moves the camera; 0: it has come to rest
-  std::optional<PickMessage> pick;
-  std::optional<SaveMessage> save;
-  std::optional<TextsMessage> texts;
-  bool stop_saving = false;
+  // Of each client the newest.
+  std::map<int, PickMessage> picks;
+  std::map<int, SaveMessage> saves;
+  std::map<int, StopSavingMessage> stops;
+  std::map<int, TextsMessage> texts;
 
   [[nodiscard]] bool any() const {
-    return stop || connected || camera || settings || scene || pick || save || texts || stop_saving;
+    return stop || connected || camera || settings || scene || !picks.empty() || !saves.empty() ||
+           !stops.empty() || !texts.empty();
   }
 };
 
 /// The clients' wishes on their way to the thread that renders. Wishes are merged, and of each kind
-/// of question the newest waits, so that it never grows. Any thread may use it.
+/// of question the newest of a client waits, so that it never grows. Any thread may use it.
 class Mailbox {
  public:
   using Clock = std::chrono::steady_clock;

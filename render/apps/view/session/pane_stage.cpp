@@ -26,14 +26,18 @@ void PaneStage::set_scene(LoadedScene loaded) {
 Result<Camera> PaneStage::scene_camera(int width, int height) {
   if (scene().camera) return *scene().camera;
   Prepared first{nullptr, 0, width, height};
-  if (auto done = prepare_anew(first, scene().render.method, {}); !done) return done.error();
+  const float fog = scene().image.fog;
+  if (auto done = prepare_anew(first, scene().render.method, {}, fog); !done) return done.error();
   const Camera camera = first.scene->camera;
   prepared_[static_cast<std::size_t>(scene().render.method)] = std::move(first);
   return camera;
 }
 
-Status PaneStage::prepare_anew(Prepared& kept, Method method, const std::optional<Camera>& camera) {
+/// `fog`: as Scene's.
+Status PaneStage::prepare_anew(Prepared& kept, Method method, const std::optional<Camera>& camera,
+                               float fog) {
   Scene copy = scene();
+  copy.image.fog = fog;
   if (camera) copy.camera = camera;
   Scheduler scheduler(work_.threads);
   auto made = prepare(std::move(copy), kept.width, kept.height, scheduler.parallel_for(), method);
@@ -51,10 +55,13 @@ Result<std::shared_ptr<PreparedScene>> PaneStage::prepare_for(Method method, con
                   scaled(wish.settings.height, scale)};
   const bool fits = kept.scene && kept.camera_revision == wanted.camera_revision &&
                     kept.width == wanted.width && kept.height == wanted.height;
-  if (fits) return kept.scene;
+  // Fog needs the bounds of the scene, which it is prepared with once it has some.
+  const bool lacks_bounds = kept.scene && wish.settings.fog > 0 && !kept.scene->bounds;
+  if (fits && !lacks_bounds) return kept.scene;
+  if (lacks_bounds) wanted.scene.reset();
   kept.scene.reset();  // not half of what was and half of what is to be, if this fails
   auto done = wanted.scene ? reframe(*wanted.scene, wish.camera, wanted.width, wanted.height)
-                           : prepare_anew(wanted, method, wish.camera);
+                           : prepare_anew(wanted, method, wish.camera, wish.settings.fog);
   if (!done) return done.error();
   kept = std::move(wanted);
   return kept.scene;
@@ -81,6 +88,8 @@ RenderOptions PaneStage::options(const Wish& wish, std::size_t pane) const {
   options.spp = wish.settings.spp;
   options.noise = options.aa = 0;  // films leave them aside, and `spp` may be anything
   options.max_depth = wish.settings.max_depth;
+  options.outline = wish.settings.outline;
+  options.fog = wish.settings.fog;
   options.order = chosen.order;
   options.solver = chosen.solver;
   options.method = chosen.method;

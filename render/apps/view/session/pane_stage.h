@@ -74,7 +74,8 @@ class PaneStage {
   };
 
   Result<std::shared_ptr<PreparedScene>> prepare_for(Method method, const Wish& wish, int scale);
-  Status prepare_anew(Prepared& kept, Method method, const std::optional<Camera>& camera);
+  Status prepare_anew(Prepared& kept, Method method, const std::optional<Camera>& camera,
+                      float fog);
   void measure();
 
   const WorkSettings work_;

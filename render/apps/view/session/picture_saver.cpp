@@ -19,10 +19,16 @@ void PictureSaver::begin(Asker asker, Scene scene, const RenderOptions& options)
   if (!job) return refuse(job.error(), asker);
   job_.emplace(std::move(job).value());
   asker_ = asker;
+  absent_since_.reset();
+}
+
+PictureSaver::Clock::time_point PictureSaver::next_time(Clock::time_point now) const {
+  if (!job_) return Clock::time_point::max();
+  return absent_since_ ? *absent_since_ + longest_absence_ : now;
 }
 
 void PictureSaver::step(float stops) {
-  if (!job_) return;
+  if (!job_ || absent_since_) return;
   if (const auto done = job_->step(save_step); !done) {
     refuse(done.error(), asker_);
     return job_.reset();
@@ -34,8 +40,31 @@ void PictureSaver::step(float stops) {
   image ? keep(image.value(), stops, asker_) : refuse(image.error(), asker_);
 }
 
-void PictureSaver::stop() {
-  if (job_) refuse(Diagnostic::of("stopped"), asker_);
+void PictureSaver::take_over(Asker asker) {
+  if (asker.id == asker_.id && !is_client_here()) {
+    asker_ = asker;
+    absent_since_.reset();
+    return;
+  }
+  const char* const whose = asker.client == asker_.client ? "this" : "another";
+  refuse(Diagnostic::of(std::string(whose) + " page is saving a picture: wait until it has it"),
+         asker);
+}
+
+void PictureSaver::give_up_absent(Clock::time_point now) {
+  if (!job_ || is_client_here()) return;
+  if (!absent_since_) absent_since_ = now;
+  if (now - *absent_since_ >= longest_absence_) job_.reset();
+}
+
+void PictureSaver::stop(Asker asker) {
+  if (job_ && asker == asker_) return fail(Diagnostic::of("stopped"));
+  audience_.answer(asker.client,
+                   error_text("stop_saving", Diagnostic::of("you save no such picture"), asker.id));
+}
+
+void PictureSaver::fail(const Diagnostic& error) {
+  if (job_) refuse(error, asker_);
   job_.reset();
 }
 

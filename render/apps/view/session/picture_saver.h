@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,38 +18,58 @@ namespace boule::view {
 struct Asker {
   int client = 0;
   std::uint32_t id = 0;
+
+  friend bool operator==(const Asker&, const Asker&) = default;
 };
 
-/// Renders the picture that a client saves, beside those that it sees: one at a time. The audience
-/// and the store must outlive it.
+/// Renders the picture that a client saves, beside those that it sees: one at a time. It belongs to
+/// that client. Once the client has gone it waits for it to come again, and ends if that does not
+/// happen. The audience and the store must outlive it.
 class PictureSaver {
  public:
-  /// Saved pictures have this name; the token opens their address.
-  PictureSaver(Audience& audience, PictureStore& pictures, std::string name, std::string token)
+  using Clock = std::chrono::steady_clock;
+
+  /// Saved pictures have this name; the token opens their address. A picture waits so long for a
+  /// client that has gone.
+  PictureSaver(Audience& audience, PictureStore& pictures, std::string name, std::string token,
+               std::chrono::milliseconds longest_absence)
       : audience_(audience),
         pictures_(pictures),
         name_(std::move(name)),
-        token_(std::move(token)) {}
+        token_(std::move(token)),
+        longest_absence_(longest_absence) {}
 
   [[nodiscard]] bool is_busy() const { return job_.has_value(); }
+  /// When there is something to do for it; the latest possible time if there is nothing.
+  [[nodiscard]] Clock::time_point next_time(Clock::time_point now) const;
   /// Begins one. Precondition: it is not busy.
   void begin(Asker asker, Scene scene, const RenderOptions& options);
-  /// Goes on with it for a moment; once it is whole it is kept, brightened by so many stops.
+  /// Goes on with it for a moment, if its client is there; once it is whole it is kept, brightened
+  /// by so many stops.
   void step(float stops);
-  /// The client no longer wants it.
-  void stop();
-  /// It is not told: another failure is.
-  void drop() { job_.reset(); }
+  /// A client that asks for the same as one that has gone is that one again: it has the picture
+  /// from now on. An error goes to any other. Precondition: it is busy.
+  void take_over(Asker asker);
+  /// Ends it if its client has been away for long.
+  void give_up_absent(Clock::time_point now);
+  /// Its client no longer wants it. An error goes to any other.
+  void stop(Asker asker);
+  /// It cannot go on.
+  void fail(const Diagnostic& error);
   /// Keeps a picture and tells where it is.
   void keep(const Image& image, float stops, Asker asker);
   void refuse(const Diagnostic& error, Asker asker);
 
  private:
+  [[nodiscard]] bool is_client_here() const { return audience_.outbox(asker_.client) != nullptr; }
+
   Audience& audience_;
   PictureStore& pictures_;
   const std::string name_, token_;
+  const std::chrono::milliseconds longest_absence_;
   std::optional<SaveJob> job_;
-  Asker asker_;  ///< of the job
+  Asker asker_;                                    ///< of the job
+  std::optional<Clock::time_point> absent_since_;  ///< its client
 };
 
 }  // namespace boule::view

@@ -105,6 +105,8 @@ Json settings_json(const ViewSettings& settings) {
           {"spp", settings.spp},
           {"max_depth", settings.max_depth},
           {"exposure", shown(settings.exposure)},
+          {"outline", shown(settings.outline)},
+          {"fog", shown(settings.fog)},
           {"pace", settings.pace}};
 }
 
@@ -135,7 +137,10 @@ Json particles_json(const ShownState& shown) {
     const ParticleLook& wanted = shown.wish.look;
     look = {{"color", wanted.color},
             {"map", wanted.map},
-            {"range", wanted.range ? Json(*wanted.range) : Json()}};
+            {"range", wanted.range ? Json(*wanted.range) : Json()},
+            {"ghost", wanted.ghost},
+            {"opacity", wanted.opacity ? Json(*wanted.opacity) : Json()},
+            {"outline_by", wanted.outline_by}};
   }
   Json columns = Json::array();
   for (const NumberRange& column : shown.columns)
@@ -186,6 +191,7 @@ Json choices_json() {
           {"formats", {"png"}},
           {"maps", all_names<NamedColorMap>()},
           {"colors", {"element"}},
+          {"outline_rules", all_names<OutlineRule>()},
           {"paces", {0, 1000000, 300000, 100000, 30000}},
           {"max_size", {max_view_side, max_view_side}},
           {"max_spp", max_view_spp}};

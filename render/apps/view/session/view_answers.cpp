@@ -43,6 +43,9 @@ std::string ViewLoop::command_of(std::size_t index) const {
                      std::string(name_of(pane.method)) + " --max-depth " +
                      std::to_string(settings.max_depth);
   if (pane.solver != Solver::robust) text += " --solver " + std::string(name_of(pane.solver));
+  const ImageSettings& usual = stage_.scene().image;
+  if (settings.outline != usual.outline) text += " --outline " + shortest(settings.outline);
+  if (settings.fog != usual.fog) text += " --fog " + shortest(settings.fog);
   if (settings.exposure != 0) text += " --exposure " + shortest(settings.exposure);
   if (pane.shadow_epsilon)
     text += " --shadow-epsilon " +
@@ -50,10 +53,24 @@ std::string ViewLoop::command_of(std::size_t index) const {
   return text + facts.shared_options + parts_.source.options_of(wish_.look, wish_.frame);
 }
 
+/// A save that waits may be stopped too.
+void ViewLoop::answer_saves(const News& news) {
+  auto saves = news.saves;
+  for (const auto& [client, stop] : news.stops) {
+    const auto waiting = saves.find(client);
+    if (waiting != saves.end() && waiting->second.id == stop.id) {
+      saver_.refuse(Diagnostic::of("stopped"), {client, stop.id});
+      saves.erase(waiting);
+    } else {
+      saver_.stop({client, stop.id});
+    }
+  }
+  for (const auto& [client, message] : saves) save(message);
+}
+
 void ViewLoop::save(const SaveMessage& message) {
   const Asker asker{message.client, message.id};
-  if (saver_.is_busy())
-    return saver_.refuse(Diagnostic::of("a picture is being saved already"), asker);
+  if (saver_.is_busy()) return saver_.take_over(asker);
   const auto pane = static_cast<std::size_t>(message.pane);
   if (pane >= wish_.settings.panes.size()) return;  // the panes have changed meanwhile
   RenderOptions options = stage_.options(wish_, pane);
@@ -77,7 +94,7 @@ void ViewLoop::pick(const PickMessage& message) {
   auto scene = stage_.prepared(wish_, Method::whitted);
   if (!scene) return refuse(scene.error());
   if (!scene.value()) {  // once the panes have come to rest
-    late_pick_ = message;
+    late_picks_[message.client] = message;
     return;
   }
   RenderOptions options = stage_.options(wish_, pane);

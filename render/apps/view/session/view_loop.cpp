@@ -39,7 +39,7 @@ ViewLoop::ViewLoop(const LoopParts& parts, WorkSettings work)
       stage_(std::move(work)),
       publisher_(stage_, parts.audience),
       saver_(parts.audience, parts.pictures, picture_name(parts.source.facts().path, false),
-             parts.token) {}
+             parts.token, parts.longest_absence) {}
 
 Status ViewLoop::open(LoadedScene loaded, Wish& first) {
   const FloatEnvironment floats;
@@ -63,9 +63,10 @@ void ViewLoop::run() {
       const News news = parts_.mailbox.wait_until(next_time(), wish_);
       if (news.stop) return;
       handle(news);
+      saver_.give_up_absent(Clock::now());
       if (parts_.audience.size() == 0) continue;
       choose_stage();
-      if (late_pick_) pick(*std::exchange(late_pick_, std::nullopt));
+      for (const auto& [client, late] : std::exchange(late_picks_, {})) pick(late);
       render();
       if (!failed_) publisher_.publish(wish_);
       if (!parts_.mailbox.is_moving(Clock::now())) saver_.step(wish_.settings.exposure);
@@ -79,11 +80,11 @@ void ViewLoop::run() {
 /// When there is something to do even if nothing comes.
 ViewLoop::Clock::time_point ViewLoop::next_time() const {
   const auto now = Clock::now();
-  if (parts_.audience.size() == 0) return now + std::chrono::hours(1);
+  const auto later = std::min(now + std::chrono::hours(1), saver_.next_time(now));
+  if (parts_.audience.size() == 0) return later;
   if (must_begin_ && !failed_) return now;
   if (is_rendering()) return wish_.settings.pace > 0 ? last_step_ + milliseconds(30) : now;
-  if (saver_.is_busy()) return now;
-  auto next = now + std::chrono::hours(1);
+  auto next = later;
   if (!failed_ && stage_.shape().kind == StageKind::moving)
     next = std::min(next, parts_.mailbox.moving_until());
   return std::min(next, publisher_.next_time());
@@ -102,10 +103,9 @@ void ViewLoop::handle(const News& news) {
 }
 
 void ViewLoop::answer(const News& news) {
-  if (news.pick) pick(*news.pick);
-  if (news.texts) send_texts(*news.texts);
-  if (news.save) save(*news.save);
-  if (news.stop_saving) saver_.stop();
+  for (const auto& [client, message] : news.picks) pick(message);
+  for (const auto& [client, message] : news.texts) send_texts(message);
+  answer_saves(news);
 }
 
 /// Reads the scene of the wish. If that fails, the wish is taken back.
@@ -144,7 +144,7 @@ void ViewLoop::send_camera(int mover) {
 void ViewLoop::fail(const std::string& about, const Diagnostic& error) {
   failed_ = true;
   must_begin_ = false;
-  saver_.drop();
+  saver_.fail(error);
   parts_.audience.add_text(error_text(about, error));
 }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ struct LoopParts {
   Audience& audience;
   PictureStore& pictures;
   std::string token;
+  std::chrono::milliseconds longest_absence;  ///< of a client whose picture is saved
 };
 
 /// "first_light.png" of "scenes/first_light.toml"; "pour.####.png" of frames with numbers.
@@ -55,6 +57,7 @@ class ViewLoop {
   void render();
   [[nodiscard]] std::optional<double> allowance();
   void pick(const PickMessage& message);
+  void answer_saves(const News& news);
   void save(const SaveMessage& message);
   void send_texts(const TextsMessage& message);
   [[nodiscard]] std::string command_of(std::size_t pane) const;
@@ -72,9 +75,9 @@ class ViewLoop {
   SceneFigures figures_;
   std::vector<NumberRange> columns_;
   std::vector<std::string> notes_;
-  std::optional<PickMessage> late_pick_;  ///< waits until the panes show the whole picture
-  bool must_begin_ = false;               ///< the wish is not what is rendered
-  bool failed_ = false;                   ///< it cannot be rendered
+  std::map<int, PickMessage> late_picks_;  ///< wait until the panes show the whole picture
+  bool must_begin_ = false;                ///< the wish is not what is rendered
+  bool failed_ = false;                    ///< it cannot be rendered
   Clock::time_point last_step_{};
   double pixels_due_ = 0;  ///< at a pace
 };

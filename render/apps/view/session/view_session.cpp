@@ -50,7 +50,8 @@ Result<std::unique_ptr<ViewSession>> ViewSession::open(SceneSource& source, Load
   Mailbox::Limits limits{settings.view.panes.front(), facts.kind == "particles", facts.frames};
   parts->mailbox = std::make_unique<Mailbox>(wish, limits);
   parts->loop = std::make_unique<ViewLoop>(
-      LoopParts{source, *parts->mailbox, parts->audience, parts->pictures, settings.token},
+      LoopParts{source, *parts->mailbox, parts->audience, parts->pictures, settings.token,
+                settings.longest_absence},
       settings.work);
   if (auto done = parts->loop->open(std::move(loaded), wish); !done) return done.error();
   parts->mailbox->correct(wish);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <string>
@@ -24,6 +25,9 @@ struct SessionSettings {
   ViewSettings view;
   WorkSettings work;
   std::string token;  ///< for the addresses of saved pictures
+  /// A picture that is saved waits so long for a client that has gone: one whose connection was
+  /// lost is back sooner.
+  std::chrono::milliseconds longest_absence{10000};
 };
 
 /// What its clients see and change, all of them the same picture by the same camera: it takes

@@ -64,15 +64,30 @@ TEST(ClientMessage, ReadsTheOthers) {
   EXPECT_EQ(read<SaveMessage>(R"({"type": "save", "id": 2, "format": "png", "spp": 9})").spp, 9);
   EXPECT_EQ(read<TextsMessage>(R"({"type": "texts", "id": 3, "pane": 1})").pane, 1);
   EXPECT_EQ(read<FrameMessage>(R"({"type": "frame", "number": 1, "frame": 12})").frame, 12);
-  read<StopSavingMessage>(R"({"type": "stop_saving"})");
+  EXPECT_EQ(read<StopSavingMessage>(R"({"type": "stop_saving", "id": 9})").id, 9u);
   const auto particles = read<ParticlesMessage>(
       R"({"type": "particles", "number": 1, "color": "q", "range": [-1, 2]})");
   EXPECT_EQ(particles.color, "q");
   ASSERT_TRUE(particles.range && *particles.range);
   EXPECT_EQ((**particles.range)[1], 2);
+  const auto ghosts = read<ParticlesMessage>(
+      R"({"type": "particles", "number": 1, "ghost": "q > 1", "opacity": 0.5, "outline_by": "kind"})");
+  EXPECT_EQ(ghosts.ghost, "q > 1");
+  ASSERT_TRUE(ghosts.opacity && *ghosts.opacity);
+  EXPECT_EQ(**ghosts.opacity, 0.5);
+  EXPECT_EQ(ghosts.outline_by, "kind");
   const auto any = read<ParticlesMessage>(R"({"type": "particles", "number": 1, "range": null})");
   ASSERT_TRUE(any.range);
   EXPECT_FALSE(*any.range);
+}
+
+TEST(ClientMessage, NumbersGoRound) {
+  EXPECT_TRUE(is_later(1, 0));
+  EXPECT_TRUE(is_later(0, 4294967295));
+  EXPECT_TRUE(is_later(2147483647, 0));
+  EXPECT_FALSE(is_later(0, 0));
+  EXPECT_FALSE(is_later(0, 1));
+  EXPECT_FALSE(is_later(4294967295, 0));
 }
 
 TEST(ClientMessage, SaysWhatIsWrong) {

@@ -7,6 +7,8 @@
 #include <boost/beast/websocket.hpp>
 #include <utility>
 
+#include "render/apps/view/messages/client_message.h"
+
 namespace boule::test {
 namespace {
 
@@ -112,7 +114,8 @@ std::optional<view::Frame> ViewClient::wait_for_frame(int pane, std::uint32_t nu
   while (auto message = next()) {
     if (!message->frame) continue;
     const view::FrameHeader& header = message->frame->header;
-    if (header.pane == pane && header.number >= number && (header.finished || !finished))
+    if (header.pane == pane && !view::is_later(number, header.number) &&
+        (header.finished || !finished))
       return std::move(message->frame);
   }
   return std::nullopt;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <memory>
 #include <string>
 #include <utility>
@@ -46,12 +47,14 @@ inline view::ViewSettings settings_of(const Scene& scene) {
 /// A server of a scene, on a thread of its own until it goes.
 class RunningServer {
  public:
-  explicit RunningServer(const Scene& scene, std::optional<double> idle_seconds = {})
+  explicit RunningServer(const Scene& scene, std::optional<double> idle_seconds = {},
+                         std::chrono::milliseconds longest_absence = std::chrono::seconds(10))
       : source_(scene) {
     const std::string token = "0123456789abcdef0123456789abcdef";
     view::SessionSettings session;
     session.view = settings_of(scene);
     session.token = token;
+    session.longest_absence = longest_absence;
     session_ =
         std::move(view::ViewSession::open(source_, source_.load({}, 0).value(), session, [this] {
           server_.notify();

@@ -1,5 +1,8 @@
 // Several clients of one server of boule view.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <chrono>
 
 #include "render/image/encode_image.h"
 #include "tests/render/apps/view/view_server.h"
@@ -104,6 +107,102 @@ TEST(WebClients, AClientThatReadsNothingStopsNobody) {
   ViewClient client(place);
   client.send({{"type", "camera"}, {"number", 1000}, {"camera", {{"fov", 50}}}});
   EXPECT_TRUE(client.wait_for_frame(0, 1000, true));
+}
+
+/// Whatever number a client has sent, others have a next one.
+TEST(WebClients, NumbersGoRound) {
+  RunningServer server(small_scene());
+  ViewClient greedy(server.place()), other(server.place());
+  for (const std::uint32_t number : {2147483647U, 4294967294U, 4294967295U}) {
+    greedy.send({{"type", "settings"}, {"number", number}, {"spp", 2}});
+    Json state;
+    while (state.is_null() || state["number"] != number) state = other.wait_for("state");
+  }
+  other.send({{"type", "camera"}, {"number", 0}, {"camera", {{"fov", 50}}}});
+  const auto frame = other.wait_for_frame(0, 0, true);
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->header.number, 0U);
+  EXPECT_TRUE(greedy.wait_for_frame(0, 0, true));
+}
+
+/// Of a picture that takes longer than any of these tests.
+Json long_save(std::uint32_t id) {
+  return {{"type", "save"}, {"id", id}, {"format", "png"}, {"spp", 65536}};
+}
+
+Scene slow_scene() {
+  Scene scene = mixed_scene(1024, 1024);
+  scene.image.spp = 1;
+  return scene;
+}
+
+TEST(WebClients, OnlyItsClientStopsASave) {
+  RunningServer server(slow_scene());
+  ViewClient owner(server.place()), other(server.place());
+  owner.send(long_save(7));
+  ASSERT_EQ(owner.wait_for("saving")["id"], 7);
+  other.send({{"type", "stop_saving"}, {"id", 7}});
+  EXPECT_EQ(other.wait_for("error")["about"], "stop_saving");
+  other.send(long_save(7));
+  EXPECT_THAT(other.wait_for("error")["text"], testing::HasSubstr("another page is saving"));
+  owner.send({{"type", "stop_saving"}, {"id", 6}});
+  EXPECT_EQ(owner.wait_for("error")["id"], 6);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(owner.wait_for("saving")["id"], 7);
+  owner.send({{"type", "stop_saving"}, {"id", 7}});
+  const Json stopped = owner.wait_for("error");
+  EXPECT_EQ(stopped["about"], "save");
+  EXPECT_EQ(stopped["id"], 7);
+  other.send(long_save(8));
+  EXPECT_EQ(other.wait_for("saving")["id"], 8);
+}
+
+/// The save and its end arrive together.
+TEST(WebClients, AWaitingSaveCanBeStopped) {
+  RunningServer server(slow_scene());
+  ViewClient client(server.place());
+  for (std::uint32_t id = 1; id < 20; ++id) {
+    client.send(long_save(id));
+    client.send({{"type", "stop_saving"}, {"id", id}});
+    const Json stopped = client.wait_for("error");
+    EXPECT_EQ(stopped["about"], "save");
+    EXPECT_EQ(stopped["id"], id);
+  }
+}
+
+TEST(WebClients, AClientFindsItsSaveAgain) {
+  RunningServer server(slow_scene(), 60, std::chrono::minutes(1));
+  double share = 0;
+  {
+    ViewClient lost(server.place());
+    lost.send(long_save(7));
+    while (!(share > 0)) share = lost.wait_for("saving")["share"];
+    lost.drop();
+  }
+  ViewClient again(server.place());
+  again.send(long_save(7));
+  EXPECT_GE(again.wait_for("saving")["share"], share);
+  again.send({{"type", "stop_saving"}, {"id", 7}});
+  EXPECT_EQ(again.wait_for("error")["about"], "save");
+}
+
+TEST(WebClients, ASaveEndsWithItsClient) {
+  RunningServer server(slow_scene(), {}, std::chrono::milliseconds(1));
+  ViewClient other(server.place());
+  {
+    ViewClient lost(server.place());
+    lost.send(long_save(7));
+    ASSERT_FALSE(lost.wait_for("saving").is_null());
+    lost.drop();
+  }
+  std::string type = "error";
+  for (std::uint32_t id = 8; type == "error"; ++id) {
+    other.send(long_save(id));
+    do {
+      const auto message = other.next();
+      ASSERT_TRUE(message);
+      type = message->json ? std::string((*message->json)["type"]) : "";
+    } while (type != "error" && type != "saving");
+  }
 }
 
 }  // namespace

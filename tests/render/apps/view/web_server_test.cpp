@@ -123,6 +123,26 @@ TEST(WebServer, RestingPictureMatchesTheRenderer) {
   }
 }
 
+TEST(WebServer, LinesAndFogMatchTheRenderer) {
+  Scene scene = scene_of(64, 48, 2);
+  RunningServer server(scene);
+  ViewClient client(server.place());
+  ASSERT_TRUE(client.wait_for_frame(0, 0, true));
+  scene.image.outline = 2;
+  scene.image.fog = 0.75F;
+  client.send({{"type", "settings"}, {"number", 1}, {"outline", 2}, {"fog", 0.75}});
+  const auto both = client.wait_for_frame(0, 1, true);
+  ASSERT_TRUE(both);
+  EXPECT_EQ(both->picture, png_of(render(scene)));
+  // The camera moves, and the depths of the fog with it.
+  const Vec3f eye{0.25F, 2, 9};
+  client.send({{"type", "camera"}, {"number", 2}, {"camera", {{"eye", {eye.x, eye.y, eye.z}}}}});
+  scene.camera = pinhole(eye, {0, 0.8F, 0}, 50);
+  EXPECT_EQ(client.wait_for_frame(0, 2, true)->picture, png_of(render(scene)));
+  client.send({{"type", "settings"}, {"number", 3}, {"fog", 1.5}});
+  EXPECT_EQ(client.wait_for("error")["key"], "fog");
+}
+
 TEST(WebServer, TwoPanesAndTheirDifference) {
   const Scene scene = scene_of(64, 48, 1);
   RunningServer server(scene);

@@ -101,6 +101,14 @@ TEST(LookOptions, NoneIsGivenByDefault) {
   EXPECT_EQ(look_of({"--quick"}).first, "--quick");
 }
 
+TEST(LookOptions, AllThatAreGivenAreKept) {
+  EXPECT_TRUE(look_of({"--spp", "4"}).given.empty());
+  const auto given = look_of({"--select", "x > 0", "--floor", "--spp", "4", "--clip", "x<5"}).given;
+  EXPECT_THAT(
+      given, testing::UnorderedElementsAre(GivenOption{"select", "x > 0"}, GivenOption{"floor", ""},
+                                           GivenOption{"clip", "x<5"}));
+}
+
 TEST(LookOptions, OfAllCommandsAreTheSame) {
   const Command command = parse({"scene", "a.xyz", "--color", "vz", "--map", "turbo"});
   const auto* scene = std::get_if<SceneCommand>(&command);

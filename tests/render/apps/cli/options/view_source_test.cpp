@@ -101,6 +101,28 @@ TEST_F(ViewSourceTest, ASeriesChoosesOnceFromAllFrames) {
   EXPECT_EQ(source.options_of({}, 2), " --frame 2 --radius 0.5");
 }
 
+TEST_F(ViewSourceTest, GivenOptionsAreInTheCommand) {
+  RenderCommand command = command_for(trajectory());
+  command.look.given = {{"view", "z"}, {"floor", ""}, {"clip", "x<5"}, {"ghost", "q > 9"}};
+  command.look.ghost = "q > 9";
+  ViewSource source(command);
+  ASSERT_TRUE(source.open());
+  EXPECT_EQ(source.facts().shared_options, " --floor --clip 'x<5'");
+  EXPECT_THAT(source.options_of(source.facts().look, 0), HasSubstr(" --ghost 'q > 9'"));
+  view::ParticleLook look;
+  look.ghost = "q < 1";
+  look.opacity = 0.5;
+  look.outline_by = "kind";
+  EXPECT_THAT(source.options_of(look, 0),
+              HasSubstr(" --ghost 'q < 1' --opacity 0.5 --outline-by 'kind'"));
+  const auto loaded = source.load(look, 0);
+  ASSERT_TRUE(loaded);
+  EXPECT_FALSE(loaded.value().scene.outline_groups.empty());
+  EXPECT_FALSE(loaded.value().scene.image.fog_from);
+  look.ghost = "q <";
+  EXPECT_FALSE(source.load(look, 0));
+}
+
 TEST_F(ViewSourceTest, ColumnsHaveRanges) {
   ViewSource source(command_for(trajectory()));
   ASSERT_TRUE(source.open());
