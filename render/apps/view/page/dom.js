@@ -44,7 +44,7 @@ export function refuse(input, words) {
 }
 
 /** Takes that back: the value is right. */
-function accept(input) {
+export function accept(input) {
   byId(`${input.id}-wrong`)?.remove();
   for (const name of ['aria-invalid', 'aria-errormessage']) input.removeAttribute(name);
 }

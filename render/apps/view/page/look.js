@@ -1,6 +1,6 @@
 // Lines around what is seen, fog, and particles that are seen through.
 
-import {byId, fillSelect, onNumber, showValue} from './dom.js';
+import {accept, byId, fillSelect, onNumber, showValue} from './dom.js';
 import {outlineRuleName} from './words.js';
 
 const usualOpacity = 0.2;
@@ -15,6 +15,7 @@ export class Look {
     byId('ghost').addEventListener('input', () => { byId('ghost').dataset.edited = '1'; });
     byId('ghost').addEventListener('change', () => {
       delete byId('ghost').dataset.edited;
+      accept(byId('ghost'));
       this.change({ghost: byId('ghost').value.trim()});
     });
     byId('opacity').addEventListener('change', () => this.change({opacity: Number(byId('opacity').value)}));
@@ -36,7 +37,9 @@ export class Look {
     if (look === null) return;
     const rules = [...new Set(['', ...choices.outline_rules, look.outline_by])];
     fillSelect(byId('outline-by'), rules.map((rule) => [rule, outlineRuleName(rule)]), look.outline_by);
-    showValue(byId('ghost'), look.ghost);
+    const isRefused = byId('ghost').hasAttribute('aria-invalid') && look.ghost === this.ghost;
+    if (!isRefused) showValue(byId('ghost'), look.ghost);
+    this.ghost = look.ghost;
     const opacity = look.opacity ?? usualOpacity;
     byId('opacity').disabled = look.ghost === '';
     if (document.activeElement !== byId('opacity')) byId('opacity').value = opacity;

@@ -97,7 +97,8 @@ const fields = {
 
 let entered = null;  // the field that was used last
 
-function showError({text, key}) {
+function showError({text, key: option}) {
+  const key = option?.replace(/^--/, '');
   showProblem(key && !text.includes(key) ? `${key}: ${text}` : text);
   const ids = fields[key] ?? [key?.replace('.', '-')].filter(byId);
   for (const id of ids.includes(entered) ? [entered] : ids) refuse(byId(id), sentence(text));

@@ -29,10 +29,7 @@ PictureSaver::Clock::time_point PictureSaver::next_time(Clock::time_point now) c
 
 void PictureSaver::step(float stops) {
   if (!job_ || absent_since_) return;
-  if (const auto done = job_->step(save_step); !done) {
-    refuse(done.error(), asker_);
-    return job_.reset();
-  }
+  if (const auto done = job_->step(save_step); !done) return fail(done.error());
   if (!job_->done())
     return audience_.report_to(asker_.client, "saving", saving_text(asker_.id, job_->share()));
   const auto image = job_->picture();

@@ -11,6 +11,7 @@
 #include "render/apps/view/messages/message_keys.h"
 #include "render/apps/view/panes/difference.h"
 #include "render/files/particles/colors/color_map.h"
+#include "render/files/particles/particle_style.h"
 #include "render/prepare/default_camera.h"
 
 namespace boule::view {
