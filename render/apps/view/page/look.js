@@ -33,7 +33,7 @@ export class Look {
     if (document.activeElement !== byId('fog')) byId('fog').value = settings.fog;
     showShare('fog', settings.fog);
     const look = particles?.look ?? null;
-    byId('particle-look').hidden = look === null;
+    for (const id of ['particle-look', 'outline-by-row']) byId(id).hidden = look === null;
     if (look === null) return;
     const rules = [...new Set(['', ...choices.outline_rules, look.outline_by])];
     fillSelect(byId('outline-by'), rules.map((rule) => [rule, outlineRuleName(rule)]), look.outline_by);
