@@ -220,11 +220,11 @@ class Page(unittest.TestCase):
             const {session} = bouleView;
             session.on('saving', ({share}) => { window.lastShare = share; });
             session.ask({type: 'save', pane: 0, format: 'png', spp: 3000}, 'saved')
-                .then(({url}) => { window.saved = url; }, ({message}) => { window.saved = message; });""")
+                .then(({url}) => { window.end = url; }, ({message}) => { window.end = message; });""")
         share = browser.wait("window.lastShare", "a picture that is being saved")
         browser.script("window.lastShare = 1; bouleView.session.connection.socket.close()")
         self.assertGreaterEqual(browser.wait("window.lastShare < 1 && window.lastShare", "that it goes on"), share)
-        self.assertRegex(browser.wait("window.saved", "the saved picture"), "^/picture/")
+        self.assertRegex(browser.wait("window.end", "the saved picture"), "^/picture/")
 
     def test_orders_change_and_panes_agree(self):
         browser = self.browser
@@ -533,7 +533,7 @@ class Series(unittest.TestCase):
         def expect_another(condition, what):
             browser.wait(condition, what)
             browser.rest()
-            self.assertNotIn(browser.pixels(), looks)
+            self.assertTrue(browser.pixels() not in looks, what)
             looks.append(browser.pixels())
 
         def enter(field, text):
@@ -547,7 +547,8 @@ class Series(unittest.TestCase):
         expect_another("bouleView.session.state.particles.look.opacity === 0.25", "an opacity")
         self.assertEqual(browser.find("#opacity-text").text, "25 %")
         enter("#outline", "4")
-        expect_another("bouleView.session.state.settings.outline === 4", "lines")
+        browser.wait("bouleView.session.state.settings.outline === 4", "lines")
+        browser.rest()
         browser.find("#fog").send_keys(Keys.END)
         expect_another("bouleView.session.state.settings.fog === 1", "fog")
 

@@ -2,7 +2,7 @@
 
 import {byId, fillSelect, make, onNumber, showValue} from './dom.js';
 import {fovLimits, frameOf, keysOf} from './camera.js';
-import {cameraName, plain} from './words.js';
+import {cameraName, meanings, plain} from './words.js';
 
 // A number for a field, where it may be edited.
 const editable = (number, digits = 6) => plain(Number(number.toPrecision(digits)));
@@ -36,6 +36,7 @@ export class CameraForm {
   makeRow(key, rule) {
     const label = looks[key]?.label ?? (key[0].toUpperCase() + key.slice(1)).replaceAll('_', ' ');
     const field = rule.kind === 'name' ? this.makeSelect(key, rule) : this.makeNumber(key, rule);
+    field.title = meanings[`camera-${key}`] ?? '';
     let cell = field;
     if (rule.unit) {
       field.setAttribute('aria-label', `${label} in ${rule.unit}`);
@@ -43,7 +44,7 @@ export class CameraForm {
       cell = make('span', {className: 'pair'}, ...(key === 'fov' ? [this.makeSlider()] : []), field, unit);
     }
     const htmlFor = (cell.querySelector('input') ?? field).id;
-    return {field, row: make('div', {className: 'row'}, make('label', {htmlFor, textContent: label}), cell)};
+    return {field, row: make('div', {className: 'row'}, make('label', {htmlFor, textContent: label, title: field.title}), cell)};
   }
 
   makeSelect(key, {names}) {
@@ -64,7 +65,7 @@ export class CameraForm {
 
   // The slider is logarithmic: a degree matters more at 2 than at 100.
   makeSlider() {
-    const slider = make('input', {type: 'range', id: 'camera-fov-slider', step: 'any'});
+    const slider = make('input', {type: 'range', id: 'camera-fov-slider', step: 'any', title: meanings['camera-fov']});
     slider.addEventListener('input', () =>
       this.session.move({fov: Number(Math.exp(slider.value).toPrecision(3))}));
     slider.addEventListener('change', () => this.session.rest());
