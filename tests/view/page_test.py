@@ -218,13 +218,16 @@ class Page(unittest.TestCase):
         browser = self.browser
         browser.script("""
             const {session} = bouleView;
-            session.on('saving', ({share}) => { window.lastShare = share; });
-            session.ask({type: 'save', pane: 0, format: 'png', spp: 3000}, 'saved')
+            session.on('saving', ({share}) => {
+              window.lastShare = share;
+              window.least = Math.min(window.least ?? 1, share);
+            });
+            session.ask({type: 'save', pane: 0, format: 'png', spp: 500}, 'saved')
                 .then(({url}) => { window.end = url; }, ({message}) => { window.end = message; });""")
         share = browser.wait("window.lastShare", "a picture that is being saved")
-        browser.script("window.lastShare = 1; bouleView.session.connection.socket.close()")
-        self.assertGreaterEqual(browser.wait("window.lastShare < 1 && window.lastShare", "that it goes on"), share)
+        browser.script("delete window.least; bouleView.session.connection.socket.close()")
         self.assertRegex(browser.wait("window.end", "the saved picture"), "^/picture/")
+        self.assertGreaterEqual(browser.script("return window.least ?? 1"), share)
 
     def test_orders_change_and_panes_agree(self):
         browser = self.browser
@@ -537,8 +540,7 @@ class Series(unittest.TestCase):
             looks.append(browser.pixels())
 
         def enter(field, text):
-            browser.find(field).clear()
-            browser.find(field).send_keys(text, Keys.ENTER)
+            browser.find(field).send_keys(Keys.CONTROL, "a", Keys.NULL, Keys.BACKSPACE, text, Keys.ENTER)
 
         self.assertFalse(browser.find("#opacity").is_enabled())
         enter("#ghost", "x > 0.5")
