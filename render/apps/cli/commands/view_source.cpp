@@ -99,7 +99,8 @@ Result<LookOptions> ViewSource::look_with(const view::ParticleLook& look) const 
   options.map = look.map;
   options.range = look.range;
   options.ghost = look.ghost;
-  options.opacity = look.opacity;
+  options.opacity.reset();
+  if (!look.ghost.empty()) options.opacity = look.opacity;  // it is refused without any
   options.outline_by = look.outline_by;
   if (has_color_map(options.color)) return options;
   options.map.clear();  // what has no map needs none
@@ -144,8 +145,10 @@ std::string ViewSource::options_of(const view::ParticleLook& look, int frame) co
   }
   if (facts_.kind != "particles") return text;
   text += radius_option();
-  if (!look.ghost.empty()) text += " --ghost " + shell_word(look.ghost);
-  if (look.opacity) text += fmt::format(" --opacity {}", *look.opacity);
+  if (!look.ghost.empty()) {
+    text += " --ghost " + shell_word(look.ghost);
+    if (look.opacity) text += fmt::format(" --opacity {}", *look.opacity);
+  }
   if (!look.outline_by.empty()) text += " --outline-by " + shell_word(look.outline_by);
   if (!look.color.empty()) text += " --color " + shell_word(look.color);
   if (!has_color_map(look.color)) return text;

@@ -69,7 +69,7 @@ GONE = re.compile(
     r"mat|maximum_sctype|msort|NaN|nbytes|NINF|NZERO|obj2sctype|PINF|product|PZERO|recfromcsv|"
     r"recfromtxt|round_|row_stack|safe_eval|sctype2char|sctypeDict|sctypes|set_numeric_ops|"
     r"set_string_function|singlecomplex|sometrue|source|string_|trapz|unicode_|who)\b"
-    r"|\.(?:ptp|newbyteorder|itemset)\(|\bcopy=False"
+    r"|\.(?:ptp|itemset)\(|\bcopy=False"
 )
 
 

@@ -121,6 +121,9 @@ TEST_F(ViewSourceTest, GivenOptionsAreInTheCommand) {
   EXPECT_FALSE(loaded.value().scene.image.fog_from);
   look.ghost = "q <";
   EXPECT_FALSE(source.load(look, 0));
+  look.ghost.clear();  // its opacity waits for the next ones
+  EXPECT_TRUE(source.load(look, 0));
+  EXPECT_THAT(source.options_of(look, 0), testing::Not(HasSubstr("--opacity")));
 }
 
 TEST_F(ViewSourceTest, ColumnsHaveRanges) {
