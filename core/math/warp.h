@@ -58,7 +58,7 @@ BOULE_INLINE AngleOf<T> warp_to_cosine(const T& u) {
 }
 template <class T = double>
 BOULE_INLINE T cosine_density(const T& cosine) {
-  return cosine / T(elementary::pi);
+  return cosine * T(1 / elementary::pi);
 }
 
 /// The same with the density (n + 1) / (2 pi) cosine^n, a lobe of Phong's (Lafortune and Willems,
@@ -71,7 +71,7 @@ BOULE_INLINE AngleOf<T> warp_to_power(const T& u, const T& n) {
 }
 template <class T = double>
 BOULE_INLINE T power_density(const T& power, const T& n) {  // power: cosine^n
-  return (n + T(1.0)) * power / T(2 * elementary::pi);
+  return (n + T(1.0)) * power * T(1 / (2 * elementary::pi));
 }
 
 /// The same, spread evenly over a cone whose half angle has the cosine 1 - height.

@@ -43,16 +43,26 @@ class LobesOf {
 
   /// Both must outlive it.
   BOULE_INLINE LobesOf(const CoefficientsOf<T>& material, const IncidenceOf<T>& met)
-      : material_(material), met_(met), diffuse_(0.0), highlight_(0.0) {
+      : material_(material),
+        met_(met),
+        diffuse_(0.0),
+        highlight_(0.0),
+        reflection_(0.0),
+        refraction_(0.0) {
     if constexpr (kind != LobeKind::clear) diffuse_ = mean_of<T>(material.diffuse);
     if constexpr (kind == LobeKind::glossy) highlight_ = highlight_albedo(material);
     sum_ = diffuse_ + highlight_;
     if constexpr (kind != LobeKind::matte) {
-      weights_ = scatter(material, met);
-      reflection_ = mean_of<T>(weights_.reflection);
-      refraction_ = mean_of<T>(weights_.refraction);
-      sum_ = sum_ + reflection_ + refraction_;
+      const Mask<F> dull = is_black_in<T>(material.mirror) & is_black_in<T>(material.transmission);
+      is_sharp_ = any(complement(dull));
+      if (is_sharp_) {
+        weights_ = scatter(material, met);
+        reflection_ = mean_of<T>(weights_.reflection);
+        refraction_ = mean_of<T>(weights_.refraction);
+        sum_ = sum_ + reflection_ + refraction_;
+      }
     }
+    if constexpr (kind != LobeKind::clear) share_ = T(1.0) / sum_;
   }
 
   /// Whether the surface sends light on.
@@ -72,7 +82,7 @@ class LobesOf {
       density = density + highlight_ * power_density(power, material_.shininess);
     }
     const ColorOf<T> white{F(1.0F), F(1.0F), F(1.0F)};
-    return {density / sum_, reflected_light(material_, cosine, power, narrow(cosine), white)};
+    return {density * share_, reflected_light(material_, cosine, power, narrow(cosine), white)};
   }
 
   /// Chooses a lobe, and a direction in it, by two numbers in [0, 1).
@@ -102,11 +112,16 @@ class LobesOf {
     const Vec3<T> direction =
         direction_about(select(shiny, met_.mirrored, met_.normal), from, turns);
     const Mask<T> alone = diffuse & (sum_ <= diffuse_);
-    const BounceOf<T> spread = scattered(direction), sharp = straight(u, both);
-    const ColorOf<T> weight = select(narrow(alone), material_.diffuse, spread.weight);
-    const T density = select(alone, cosine_density(from.cosine), spread.density);
+    BounceOf<T> spread = scattered(direction);
+    if (any(alone)) {
+      spread.weight = select(narrow(alone), material_.diffuse, spread.weight);
+      spread.density = select(alone, cosine_density(from.cosine), spread.density);
+    }
+    if (!is_sharp_) return spread;
+    const BounceOf<T> sharp = straight(u, both);
     return {select(scatters, direction, sharp.direction),
-            select(narrow(scatters), weight, sharp.weight), select(scatters, density, T(0.0)),
+            select(narrow(scatters), spread.weight, sharp.weight),
+            select(scatters, spread.density, T(0.0)),
             select(scatters, T(1.0) < T(0.0), sharp.beyond)};
   }
 
@@ -118,7 +133,7 @@ class LobesOf {
     const F scale = narrow(T(1.0) / (T(elementary::pi) * response.density));
     const ColorOf<T> black{F(0.0F), F(0.0F), F(0.0F)};
     return {direction, select(narrow(counts), response.reflected * scale, black), response.density,
-            counts};
+            T(1.0) < T(0.0)};
   }
 
   /// Into the reflected or the refracted direction; `first` is the sum of the shares of the lobes
@@ -137,7 +152,8 @@ class LobesOf {
   const IncidenceOf<T>& met_;
   ScatterOf<T> weights_;
   T diffuse_, highlight_, reflection_, refraction_;  ///< the light that each lobe sends on
-  T sum_;
+  T sum_, share_;                                    ///< of all lobes, and 1 / sum_
+  bool is_sharp_ = false;                            ///< some lane reflects or refracts
 };
 
 /// Veach's power heuristic with exponent 2 ("Robust Monte Carlo methods for light transport
@@ -147,16 +163,6 @@ template <class T>
 BOULE_INLINE T power_heuristic(const T& a, const T& b) {
   const T ratio = b / a;
   return T(1.0) / (T(1.0) + ratio * ratio);
-}
-
-/// False only if a line along `dir` certainly misses the sphere. It takes neither a root nor a
-/// quotient: it compares the line's distance from the centre with twice the radius, plus a little
-/// for rounding.
-template <class T>
-BOULE_INLINE Mask<T> may_meet(const Vec3<T>& dir, const Vec3<T>& to_center, const T& radius) {
-  const Vec3<T> aside = cross(dir, to_center);
-  const T reach = T(4.0) * radius * radius + T(1e-29) * dot(to_center, to_center);
-  return complement(dot(dir, dir) * reach < dot(aside, aside));
 }
 
 /// The colour of a gradient from `bottom` to `top` in a direction with this cosine to up.

@@ -25,7 +25,7 @@ BOULE_INLINE Mask<Single<T>> is_black_in(const ColorOf<T>& c) {
 /// (r + g + b) / 3
 template <class T>
 BOULE_INLINE T mean_of(const ColorOf<T>& c) {
-  return (widen(c.x) + widen(c.y) + widen(c.z)) / T(3.0);
+  return (widen(c.x) + widen(c.y) + widen(c.z)) * T(1.0 / 3);
 }
 template <class F>
 BOULE_INLINE Vec3<F> product(const Vec3<F>& a, const Vec3<F>& b) {
@@ -38,6 +38,7 @@ struct CoefficientsOf {
   ColorOf<T> diffuse, mirror, transmission;
   T highlight, shininess, ior;
   Mask<T> fresnel;
+  int common_exponent = 0;  ///< as_whole_exponent() of the shininess of all lanes; 0: it varies
 };
 
 /// A ray that arrived at a surface: meanings as in Surface.
@@ -48,11 +49,32 @@ struct IncidenceOf {
   Mask<T> inner;
 };
 
+/// Exponents up to this are computed by squaring if they are whole.
+inline constexpr double most_squared = 1024;
+
+/// An exponent that is computed by squaring; 0: another one.
+BOULE_INLINE int as_whole_exponent(double exponent) {
+  if (!(1 <= exponent && exponent <= most_squared)) return 0;
+  const int whole = static_cast<int>(exponent);
+  return exponent == whole ? whole : 0;
+}
+
+/// base^exponent for an exponent of at least 1.
+template <class T>
+BOULE_INLINE T whole_power(const T& base, int exponent) {
+  T result(1.0), square = base;
+  for (; exponent > 1; exponent /= 2) {
+    if (exponent % 2 == 1) result = result * square;
+    square = square * square;
+  }
+  return result * square;
+}
+
 /// base^exponent for 0 < base <= 1 and exponent > 0. Most materials have whole exponents, which are
 /// computed by squaring: that takes a fraction of the time, and its error is far below a float's.
 template <class T>
 BOULE_INLINE T cosine_power(const T& base, const T& exponent) {
-  const T largest(1024.0), held = select(largest < exponent, largest, exponent);
+  const T largest(most_squared), held = select(largest < exponent, largest, exponent);
   const T nearest = elementary::detail::round_to_integer(held);
   const T whole = select(held < nearest, nearest - T(1.0), nearest);
   const Mask<T> broken = (whole < exponent) | (exponent < whole);
@@ -77,7 +99,10 @@ BOULE_INLINE T highlight_power(const CoefficientsOf<T>& material, const Vec3<T>&
   const T r_dot_l = select(T(1.0) < along, T(1.0), along);
   const Mask<T> seen = (T(0.0) < material.highlight) & (T(0.0) < r_dot_l);
   if (!any(seen)) return T(0.0);
-  return select(seen, cosine_power(select(seen, r_dot_l, T(1.0)), material.shininess), T(0.0));
+  const T base = select(seen, r_dot_l, T(1.0));
+  const T power = material.common_exponent > 0 ? whole_power(base, material.common_exponent)
+                                               : cosine_power(base, material.shininess);
+  return select(seen, power, T(0.0));
 }
 
 /// The light that a surface sends to the viewer for light of `intensity` from a direction: C Kd

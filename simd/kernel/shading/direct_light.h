@@ -18,6 +18,7 @@ BOULE_INLINE CoefficientsOf<Wide> light_coefficients(const FlatMaterial* const* 
     loaded.diffuse = in_all_lanes(of_lane[0]->diffuse);
     loaded.highlight = of_lane[0]->highlight;
     loaded.shininess = of_lane[0]->shininess;
+    loaded.common_exponent = as_whole_exponent(of_lane[0]->shininess);
     return loaded;
   }
   const float* diffuse[width];
@@ -31,6 +32,7 @@ BOULE_INLINE CoefficientsOf<Wide> light_coefficients(const FlatMaterial* const* 
   loaded.diffuse = {columns.x, columns.y, columns.z};
   loaded.highlight = load(numbers[0]);
   loaded.shininess = load(numbers[1]);
+  loaded.common_exponent = common_exponent(of_lane);
   return loaded;
 }
 

@@ -28,6 +28,14 @@ BOULE_INLINE bool are_one(const FlatMaterial* const* of_lane) {
 
 BOULE_INLINE Vec3<Real> in_all_lanes(const Color& color) { return {color.r, color.g, color.b}; }
 
+/// CoefficientsOf::common_exponent of W materials.
+BOULE_INLINE int common_exponent(const FlatMaterial* const* of_lane) {
+  bool same = true;
+  for (std::size_t lane = 1; lane < width; ++lane)
+    same &= of_lane[lane]->shininess == of_lane[0]->shininess;
+  return same ? as_whole_exponent(of_lane[0]->shininess) : 0;
+}
+
 /// One material in all lanes.
 template <LobeKind kind>
 BOULE_INLINE CoefficientsOf<Wide> load_material(const FlatMaterial& material) {
@@ -41,7 +49,8 @@ BOULE_INLINE CoefficientsOf<Wide> load_material(const FlatMaterial& material) {
             material.highlight,
             material.shininess,
             material.ior,
-            widen(uniform(material.fresnel))};
+            widen(uniform(material.fresnel)),
+            as_whole_exponent(material.shininess)};
   }
 }
 
@@ -78,7 +87,8 @@ BOULE_INLINE CoefficientsOf<Wide> load_materials(const FlatMaterial* const* of_l
             load(numbers[0]),
             load(numbers[1]),
             load(numbers[2]),
-            load_set(fresnel)};
+            load_set(fresnel),
+            common_exponent(of_lane)};
   }
 }
 

@@ -45,7 +45,7 @@ double reflected_share(double cosine, const Bent& bent, double eta) {
   return 0.5 * (s * s + p * p);
 }
 
-double mean(const Color& c) { return component_sum(c) / 3; }
+double mean(const Color& c) { return component_sum(c) * (1.0 / 3); }
 
 }  // namespace
 
@@ -97,7 +97,7 @@ double LobeSampler::density(double cosine, const Vec3d& to_light) const {
           highlight_ * power_density(power(r_dot_l, material_->shininess), material_->shininess);
     }
   }
-  return density / sum_;
+  return density * (1 / sum_);
 }
 
 LobeSampler::Choice LobeSampler::choose(UnitPair numbers) const {
