@@ -62,9 +62,13 @@ Path::Path(const PreparedScene& scene, const KernelTable& kernels,
 void Path::start(const CameraRays& camera) {
   const std::size_t count = camera.rays.size();
   if (random_keys_.size() < count) random_keys_.resize(std::bit_ceil(count));
+  const SampleId* of = nullptr;  // samples of one pixel often follow each other
+  std::uint64_t pixel = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const SampleId& id = camera.samples[k];
-    random_keys_[k] = {keys_.of(id.x, id.y), static_cast<std::uint32_t>(id.sample)};
+    if (of == nullptr || id.x != of->x || id.y != of->y) pixel = keys_.of(id.x, id.y);
+    of = &id;
+    random_keys_[k] = {pixel, static_cast<std::uint32_t>(id.sample)};
   }
 }
 

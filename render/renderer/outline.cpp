@@ -181,16 +181,21 @@ const std::vector<int>& OutlineWorker::disc_between(const Hit& a, const Hit& b) 
 /// Marks every point whose distance from a change is half the line's width or less. A change lies
 /// in the middle between two neighbours that see different primitives, or a primitive and its cap.
 void OutlineWorker::mark_changes() {
+  const auto width = static_cast<std::size_t>(points_.width());
+  const bool has_caps = !surfaces_.empty();
+  const auto is_change = [&](std::size_t a, std::size_t b) {  // most neighbours see the same
+    return (has_caps || seen_[a].id != seen_[b].id) && changes(a, b);
+  };
+  std::size_t at = 0;
   for (int y = points_.y0; y < points_.y1; ++y) {
-    for (int x = points_.x0; x < points_.x1; ++x) {
+    for (int x = points_.x0; x < points_.x1; ++x, ++at) {
       const Hit& here = hit(x, y);
-      const std::size_t at = points_.index(x, y);
-      if (x + 1 < points_.x1 && changes(at, points_.index(x + 1, y))) {
-        see_through_fog(at, points_.index(x + 1, y));
+      if (x + 1 < points_.x1 && is_change(at, at + 1)) {
+        see_through_fog(at, at + 1);
         mark_beside(x, y, disc_between(here, hit(x + 1, y)));
       }
-      if (y + 1 < points_.y1 && changes(at, points_.index(x, y + 1))) {
-        see_through_fog(at, points_.index(x, y + 1));
+      if (y + 1 < points_.y1 && is_change(at, at + width)) {
+        see_through_fog(at, at + width);
         mark_below(x, y, disc_between(here, hit(x, y + 1)));
       }
     }

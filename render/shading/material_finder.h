@@ -22,6 +22,7 @@ class MaterialFinder {
   /// Begins a stream of `rays` rays.
   void start(std::size_t rays) {
     made_.clear();
+    last_ = {};
     if (!scene_.has_own_colors) return;
     made_.reserve(rays);  // so that every material keeps its address
     last_made_.fill({});
@@ -30,12 +31,10 @@ class MaterialFinder {
   /// The material of the primitive that was hit. Precondition: it is called at most once for each
   /// ray.
   const AnyMaterial& find(const Hit& hit) {
-    const MaterialRef ref = scene_.material_ref(hit);
-    if (!ref.has_color()) return materials_[ref.index()];
-    Made& last = last_made_[slot_of(ref)];
-    if (last.material == nullptr || !(last.ref == ref))
-      last = {ref, &made_.emplace_back(scene_.colored_material(ref))};
-    return *last.material;
+    // Neighbouring rays often meet the same primitive; the ids of files may repeat.
+    if (last_.material == nullptr || hit.id != last_.id || hit.slot != last_.slot)
+      last_ = {hit.id, hit.slot, &find(scene_.material_ref(hit))};
+    return *last_.material;
   }
 
  private:
@@ -43,7 +42,20 @@ class MaterialFinder {
     MaterialRef ref;
     const AnyMaterial* material = nullptr;
   };
+  struct Met {
+    std::int32_t id = no_primitive;
+    std::uint32_t slot = 0;
+    const AnyMaterial* material = nullptr;
+  };
   static constexpr unsigned slot_bits = 6;
+
+  const AnyMaterial& find(MaterialRef ref) {
+    if (!ref.has_color()) return materials_[ref.index()];
+    Made& last = last_made_[slot_of(ref)];
+    if (last.material == nullptr || !(last.ref == ref))
+      last = {ref, &made_.emplace_back(scene_.colored_material(ref))};
+    return *last.material;
+  }
 
   /// Spreads colours evenly (Knuth's multiplicative hashing).
   static std::size_t slot_of(MaterialRef ref) {
@@ -52,6 +64,7 @@ class MaterialFinder {
 
   const PreparedScene& scene_;
   std::vector<AnyMaterial> materials_, made_;
+  Met last_;
   std::array<Made, 1U << slot_bits> last_made_{};  ///< by slot_of()
 };
 
