@@ -37,11 +37,11 @@ struct Experience {
   struct Cost {
     float ticks = 0, rays = 0;  ///< of all trials, later ones weighing more
   };
-  Cost cost[3];            ///< cost of each way
+  Cost cost[3];            ///< cost of each way of the last trial
   std::uint32_t way = 0;   ///< the fastest one
   std::uint32_t rays = 0;  ///< number of rays that go that way after a trial
   std::uint32_t left = 0;  ///< number of those rays still to come; 0: the next rays are a trial
-  std::uint32_t next_way = 0, tried_ways = 0;  ///< of the trial: its next way, and the number tried
+  std::uint32_t next_way = 0, last_way = 0;  ///< of the trial
 
   /// Of shadow rays that have little in common with their neighbours: whether they are sorted.
   struct Sorting {

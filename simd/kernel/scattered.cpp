@@ -5,6 +5,7 @@
 
 #include "simd/kernel/search/flock/flight_stream.h"
 #include "simd/kernel/search/flock/ray_sets.h"
+#include "simd/kernel/search/flock/sorted_rays.h"
 #include "simd/kernel/search/flock/trial.h"
 #include "simd/kernel/tuning.h"
 
@@ -16,8 +17,6 @@ namespace {
 template <bool any>
 class Choice {
  public:
-  static constexpr std::size_t ways = any ? 2 : 3;  ///< for any hit, flights are sets
-
   explicit Choice(Experience& known) : known_(known) {}
 
   [[nodiscard]] bool is_trial() const { return known_.left == 0; }
@@ -31,18 +30,34 @@ class Choice {
   }
 
   /// Records rays that went the current way, and the ticks they took. `shared`: of a set, whether
-  /// its rays shared so many visits that flights cannot gain.
+  /// its rays shared so many visits that flights cannot gain, but sorted rays may. For any hit
+  /// there are neither.
   void add(std::size_t rays, float ticks, bool shared) {
     if (!is_trial()) {
       known_.left -= known_.left < rays ? known_.left : static_cast<std::uint32_t>(rays);
       return;
     }
-    add_to(known_.cost[known_.next_way], static_cast<float>(rays), ticks);
-    if (way() == Way::set) known_.tried_ways = any || shared ? 2 : ways;
-    if (++known_.next_way == known_.tried_ways) choose(known_.tried_ways);
+    add_to(known_.cost[place(known_.next_way)], static_cast<float>(rays), ticks);
+    if (way() == Way::set)
+      take_last(number(any ? Way::packet : shared ? Way::sorted : Way::flight));
+    if (known_.next_way == known_.last_way) {
+      choose();
+    } else {
+      known_.next_way = way() == Way::set ? number(Way::packet) : known_.last_way;
+    }
   }
 
  private:
+  static constexpr std::uint32_t number(Way way) { return static_cast<std::uint32_t>(way); }
+  /// The place of a way's cost: flights and sorted rays, of which a trial has one, share the last.
+  static constexpr std::size_t place(std::uint32_t way) { return way < 2 ? way : 2; }
+
+  /// Sets the last way of the trial.
+  void take_last(std::uint32_t way) {
+    if (known_.last_way != way) known_.cost[2] = {};
+    known_.last_way = way;
+  }
+
   /// Adds a trial to the earlier ones. Either may have been interrupted, because the system also
   /// runs other programs on the processor.
   static void add_to(Experience::Cost& cost, float rays, float ticks) {
@@ -53,24 +68,27 @@ class Choice {
     cost.ticks = cost.ticks * share + ticks;
     cost.rays = cost.rays * share + rays;
   }
-  /// Chooses among the first `tried` ways, each of which has just been tried once more.
-  void choose(std::size_t tried) {
-    std::size_t best = 0;
-    for (std::size_t way = 1; way < tried; ++way) best = of(way) < of(best) ? way : best;
-    const std::size_t current = known_.way;
-    const bool gains = of(best) * tuning::gain_to_change<any> < of(current);
-    if (current < tried && !gains) best = current;
+  /// Chooses among the ways that have just been tried once more.
+  void choose() {
+    const std::uint32_t tried[] = {number(Way::set), number(Way::packet), known_.last_way};
+    std::uint32_t best = known_.way;
+    bool is_tried = false;
+    for (const std::uint32_t way : tried) is_tried = is_tried || way == best;
+    if (!is_tried) best = tried[0];
+    const std::uint32_t current = best;
+    for (const std::uint32_t way : tried) best = of(way) < of(best) ? way : best;
+    if (is_tried && !(of(best) * tuning::gain_to_change<any> < of(current))) best = current;
     const bool is_first = known_.rays == 0;
     bool is_clear = !is_first;
-    for (std::size_t way = 0; way < tried; ++way)
+    for (const std::uint32_t way : tried)
       is_clear = is_clear && (way == best || costs_clearly_less(of(best), of(way)));
     // The first trial starts as if earlier trials had preferred sets. It runs before the caches
     // hold any of the tree, so that the next one follows at once.
     const std::uint32_t rays =
         is_first ? 1
-                 : rays_after_trial(best == current, known_.rays, is_clear,
+                 : rays_after_trial(best == known_.way, known_.rays, is_clear,
                                     tuning::least_after_trial, tuning::most_after_trial);
-    known_.way = static_cast<std::uint32_t>(best);
+    known_.way = best;
     known_.rays = known_.left = rays;
     known_.next_way = 0;
     if (is_first) {
@@ -78,8 +96,8 @@ class Choice {
     }
   }
   /// The cost of one ray.
-  [[nodiscard]] float of(std::size_t way) const {
-    return known_.cost[way].ticks / known_.cost[way].rays;
+  [[nodiscard]] float of(std::uint32_t way) const {
+    return known_.cost[place(way)].ticks / known_.cost[place(way)].rays;
   }
 
   Experience& known_;
@@ -96,10 +114,11 @@ class ScatteredStream {
         stream_(stream),
         answers_(answers),
         flights_(geometry, stream, answers),
-        sets_(geometry, stream, answers) {}
+        sets_(geometry, stream, answers),
+        sorted_(geometry, stream, answers) {}
 
-  /// Traces rays begin .. end - 1. For any hit, the way `flight` does not exist. Returns whether
-  /// the rays share so many visits that flights cannot gain.
+  /// Traces rays begin .. end - 1. For any hit, the ways `flight` and `sorted` do not exist.
+  /// Returns whether the rays share so many visits that flights cannot gain.
   bool run(Way way, std::size_t begin, std::size_t end) {
     if (way == Way::set) {
       const SetEffort effort = sets_.run(begin, end);
@@ -108,6 +127,10 @@ class ScatteredStream {
     if constexpr (!any_hit) {
       if (way == Way::flight) {
         flights_.run(begin, end);
+        return false;
+      }
+      if (way == Way::sorted) {
+        sorted_.run(begin, end);
         return false;
       }
     }
@@ -127,15 +150,16 @@ class ScatteredStream {
   }
 
  private:
-  struct NoFlights {
-    NoFlights(const GeometryView&, const PaddedStream&, const Answers&) {}
+  struct None {
+    None(const GeometryView&, const PaddedStream&, const Answers&) {}
   };
 
   const GeometryView& geometry_;
   const PaddedStream& stream_;
   const Answers answers_;
-  std::conditional_t<any_hit, NoFlights, Flights> flights_;
+  std::conditional_t<any_hit, None, Flights> flights_;
   RaySets<Answers> sets_;
+  std::conditional_t<any_hit, None, SortedRays> sorted_;
 };
 
 }  // namespace

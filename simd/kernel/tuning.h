@@ -207,33 +207,38 @@ inline constexpr unsigned most_candidates = 8;
 /// beside the form set
 inline constexpr std::size_t set_size = 256;
 
-// ---- The choice between sets, packets and flights: scattered.cpp -----------------------------
+/// The largest number of rays that are sorted together by their directions, and the cells of
+/// directions along each side of either half of an octahedron. Set by trial. Again: boule render
+/// scenes/crambin.xyz --isa avx2
+inline constexpr std::size_t sorted_rays = 1024, sorted_side = 8;
+
+// ---- The choice between sets, packets, flights and sorted rays: scattered.cpp -----------------
 
 /// The settings of trials. First, the numbers of rays that are traced each way to find the fastest:
-/// as a set, as packets, in flight. A set on trial is a whole one, because a small one shares few
-/// visits. Then, the number of rays that go the chosen way: at first, and at most; it grows while
-/// trials agree. Then the weight of earlier trials. Trials may be interrupted: a trial counts at
-/// most a given multiple of the earlier cost, and the earlier trials are forgotten if they cost a
-/// given multiple of the new one. The automatic choice beside the fastest form, means of mirrored,
-/// diffuse and ambient rays and chords on flake4, u1000 and protein50000, both instruction sets,
-/// Zen 4: by counts of visits, each stream for itself 0.941, with the experience of earlier streams
-/// 0.960; by time, 64 rays as packets and at most 32 times as many afterwards 0.965 (ambient 0.89,
-/// the others 0.99), 128 and 8 times 0.959, 256 and 16 times 0.970 (ambient 0.98, the others 0.97).
-/// Again: bench_peers --scenes u1000,flake4,protein50000 --rays mirror,diffuse,ambient,chord,
-/// beside the other forms; the last two numbers by trial
+/// as a set, as packets, in flight, sorted. A set on trial is a whole one, because a small one
+/// shares few visits. Then, the number of rays that go the chosen way: at first, and at most; it
+/// grows while trials agree. Then the weight of earlier trials. Trials may be interrupted: a trial
+/// counts at most a given multiple of the earlier cost, and the earlier trials are forgotten if
+/// they cost a given multiple of the new one. The automatic choice beside the fastest form, means
+/// of mirrored, diffuse and ambient rays and chords on flake4, u1000 and protein50000, both
+/// instruction sets, Zen 4: by counts of visits, each stream for itself 0.941, with the experience
+/// of earlier streams 0.960; by time, 64 rays as packets and at most 32 times as many afterwards
+/// 0.965 (ambient 0.89, the others 0.99), 128 and 8 times 0.959, 256 and 16 times 0.970 (ambient
+/// 0.98, the others 0.97). Again: bench_peers --scenes u1000,flake4,protein50000 --rays
+/// mirror,diffuse,ambient,chord, beside the other forms; the last two numbers by trial
 template <bool any>
-inline constexpr std::size_t rays_on_trial[] = {set_size, any ? 256 : 64, 128};
+inline constexpr std::size_t rays_on_trial[] = {set_size, any ? 256 : 64, 128, sorted_rays / 2};
 inline constexpr std::size_t least_after_trial = 1984, most_after_trial = 16 * least_after_trial;
 inline constexpr std::size_t growth_while_agreed = 4;
 inline constexpr float share_of_earlier_trials = 0.75F;
 inline constexpr float most_growth_of_cost = 16, most_fall_of_cost = 4;
 
-/// If a set makes more than this many steps per visit, flights are left untried: they gain only
-/// where rays share few visits. By avx512, flights had 1.8 times the speed of sets for chords on
-/// u100000 (1.9 steps a visit), 1.08 on u1000 (18), 1.04 on u100 (95). For mirrored and diffuse
-/// rays (3 to 183) they were slower than sets, except for rays mirrored on u100000 and grains200000
-/// (1.02 to 1.04). Again: bench_peers --scenes u100,u1000,u100000 --rays chord, beside the forms
-/// flight and set
+/// If a set makes more than this many steps per visit, the trial has sorted rays in place of
+/// flights, which gain only where rays share few visits. By avx512, flights had 1.8 times the speed
+/// of sets for chords on u100000 (1.9 steps a visit), 1.08 on u1000 (18), 1.04 on u100 (95). For
+/// mirrored and diffuse rays (3 to 183) they were slower than sets, except for rays mirrored on
+/// u100000 and grains200000 (1.02 to 1.04). Again: bench_peers --scenes u100,u1000,u100000 --rays
+/// chord, beside the forms flight and set
 inline constexpr std::size_t steps_of_shared_visit = 24;
 
 /// If two trials agree, and in the second one way takes more than this many times as long as the

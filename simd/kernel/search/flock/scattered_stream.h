@@ -10,12 +10,12 @@
 #include "simd/kernel/search/packet/parts.h"
 
 /// Streams of rays without a promise of coherence, as sets, as packets or, for nearest hits, in
-/// flight. From time to time some rays are traced each way, and the fastest way traces the next
-/// ones. The way of a ray affects only the time. Answers: HitStream, or std::uint8_t*.
+/// flight or sorted. From time to time some rays are traced each way, and the fastest way traces
+/// the next ones. The way of a ray affects only the time. Answers: HitStream, or std::uint8_t*.
 /// (scattered.cpp)
 namespace boule::BOULE_KERNEL_ISA {
 
-enum class Way : std::size_t { set, packet, flight };
+enum class Way : std::uint32_t { set, packet, flight, sorted };
 
 /// Traces rays begin .. end - 1; `begin` is a multiple of W. `form`: automatic; or flight or set,
 /// which run without trials. `known`: Query::experience.
