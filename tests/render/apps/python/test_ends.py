@@ -8,7 +8,7 @@ import time
 import pytest
 
 SETUP = """
-import asyncio, atexit, os, signal, sys, threading, time
+import asyncio, atexit, os, signal, sys, threading, time, warnings
 from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import boule
@@ -246,6 +246,7 @@ def test_process_forked_in_a_call_ends():
     code = """
 threading.Thread(target=lambda: boule.render(endless, time_limit=3, partial=True)).start()
 time.sleep(0.3)
+warnings.simplefilter("ignore")  # from 3.12 on Python warns of forks beside threads
 child = os.fork()
 if child == 0:
     begin = time.monotonic()
