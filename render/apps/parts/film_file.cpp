@@ -15,7 +15,7 @@ namespace boule::film_file {
 namespace {
 
 constexpr char magic[8] = {'b', 'o', 'u', 'l', 'f', 'i', 'l', 'm'};
-constexpr std::uint32_t format_version = 3;
+constexpr std::uint32_t format_version = 4;
 constexpr std::uint32_t transparent_flag = 1, outline_flag = 2, measured_flag = 4;
 constexpr std::uint32_t order_shift = 8, order_mask = 3;  // the order is a number of the flags
 static_assert(names<PixelOrder>.size() == order_mask + 1);
