@@ -20,6 +20,11 @@ TEST_P(Equivalence, RobustEqualsTheScalarPath) {
     expected.push_back(reference::closest_hit(ray, hard_case.spheres, hard_case.planes));
   for (const Structure structure : {Structure::scan, Structure::bvh}) {
     const Geometry geometry(hard_case.spheres, hard_case.planes, structure);
+    if (geometry.view().bvh.size > 0) {
+      const auto sorted = run_sorted(*kernels, geometry.view(), hard_case.rays);
+      for (std::size_t i = 0; i < sorted.size(); ++i)
+        ASSERT_TRUE(same_bits(sorted[i], expected[i])) << "ray " << i << ", sorted";
+    }
     for (const Form form : {Form::automatic, Form::packet, Form::single, Form::flight, Form::set}) {
       const Query query{Solver::robust, form, Coherence::none};
       const auto hits = run_closest(*kernels, geometry.view(), hard_case.rays, query);

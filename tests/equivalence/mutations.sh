@@ -126,6 +126,8 @@ breaks "rays of sets never meet the sphere that they leave inside" ray_sets.h \
   's/again = own & uniform\(ray\.inside\)/again = own \& uniform(!BROKEN \&\& ray.inside)/'
 breaks "sorted rays get the primitive of another" sorted_rays.h \
   's/= id_\[k\];/= id_[BROKEN ? 0 : k];/'
+breaks "sorted rays go to the places of the first ones" sorted_rays.h \
+  's/(static_cast<std::uint32_t>\()begin (\+ k\))/\1(BROKEN ? 0 : begin) \2/'
 breaks "a set never makes room for candidates" set_candidates.h \
   's/return size_ > most;/return !BROKEN \&\& size_ > most;/'
 breaks "boxes of a leaf's capsules lack their radius" capsule_search.h \

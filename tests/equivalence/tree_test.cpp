@@ -235,21 +235,27 @@ TEST_P(Tree, GivesTheScalarPathsAnswers) {
   for (const TreeScene& scene : scenes()) {
     const Geometry geometry(scene.spheres, {});
     ASSERT_GT(geometry.view().bvh.size, 0U) << "no tree";
+    std::vector<Hit> expected;
+    for (const Ray& ray : scene.rays)
+      expected.push_back(reference::closest_hit(ray, scene.spheres, {}));
     std::size_t met = 0;
     for (const Form form : {Form::packet, Form::single, Form::flight, Form::set}) {
       const Query query{Solver::robust, form, Coherence::none};
       const auto hits = run_closest(*kernels, geometry.view(), scene.rays, query);
       const auto occluded = run_any(*kernels, geometry.view(), scene.rays, query);
       for (std::size_t i = 0; i < hits.size(); ++i) {
-        const Hit expected = reference::closest_hit(scene.rays[i], scene.spheres, {});
-        ASSERT_TRUE(same_bits(hits[i], expected))
+        const Hit& hit = expected[i];
+        ASSERT_TRUE(same_bits(hits[i], hit))
             << scene.name << " ray " << i << " form " << static_cast<int>(form) << ": "
-            << hits[i].id << " " << hits[i].t << ", expected " << expected.id << " " << expected.t;
-        ASSERT_EQ(occluded[i], expected.id < 0 ? 0 : 1) << scene.name << " ray " << i;
-        met += expected.id < 0 ? 0U : 1U;
+            << hits[i].id << " " << hits[i].t << ", expected " << hit.id << " " << hit.t;
+        ASSERT_EQ(occluded[i], hit.id < 0 ? 0 : 1) << scene.name << " ray " << i;
+        met += hit.id < 0 ? 0U : 1U;
       }
     }
     EXPECT_GT(met, scene.rays.size() / 4) << scene.name;
+    const auto sorted = run_sorted(*kernels, geometry.view(), scene.rays);
+    for (std::size_t i = 0; i < sorted.size(); ++i)
+      ASSERT_TRUE(same_bits(sorted[i], expected[i])) << scene.name << " ray " << i << ", sorted";
   }
 }
 

@@ -120,6 +120,25 @@ inline std::vector<Hit> run_closest(const KernelTable& kernels, const GeometryVi
   return result;
 }
 
+/// What lets kernels sort all rays by their directions, up to a million: earlier trials are said to
+/// have preferred the way `sorted` of simd/kernel/search/flock/scattered_stream.h.
+inline Experience experience_of_sorting() {
+  constexpr std::uint32_t sorted = 3;
+  Experience known;
+  known.way = known.last_way = sorted;
+  known.rays = known.left = 1U << 20;
+  return known;
+}
+/// The kernels' nearest hits of these rays, all sorted. Precondition: the geometry has a tree.
+inline std::vector<Hit> run_sorted(const KernelTable& kernels, const GeometryView& geometry,
+                                   const std::vector<Ray>& rays) {
+  Experience known = experience_of_sorting();
+  auto hits = run_closest(kernels, geometry, rays,
+                          {Solver::robust, Form::automatic, Coherence::none, &known});
+  EXPECT_EQ(known.left, known.rays - rays.size()) << "some rays went through a trial";
+  return hits;
+}
+
 /// The kernels' occlusion of these rays, 0 or 1, which is the same in all of their streams.
 inline std::vector<int> run_any(const KernelTable& kernels, const GeometryView& geometry,
                                 const std::vector<Ray>& rays, const Query& query) {
