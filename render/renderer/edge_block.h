@@ -31,8 +31,9 @@ struct EdgeTarget {
 /// edge gets 4 samples, 8, 16 and so on, until the error of their mean, as their own spread tells,
 /// is at most 3/10 (n/8)^(3/4) of the target's step. At a strong edge, where four samples may all
 /// miss a corner of the pixel, it gets 8 at least, and 16 where small spheres may hide. So a pixel
-/// with one sample is that of a picture with --spp 1, and one with n is that of --spp n. A pixel
-/// depends only on the `rim` pixels around it: blocks are rendered with that rim.
+/// with one sample is that of a picture with --spp 1, and one with n is that of --spp n, if those
+/// leave out rays of the same weight (left_out_weight()). A pixel depends only on the `rim` pixels
+/// around it: blocks are rendered with that rim.
 class EdgeBlock {
  public:
   static constexpr int largest = 128;  ///< side of a block, in pixels

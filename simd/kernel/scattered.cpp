@@ -1,4 +1,5 @@
-// Rays without a promise of coherence: sets, flights, and the trials between these and packets.
+// Rays without a promise of coherence: sets, flights and sorted rays, and the trials between these
+// and packets.
 #include "simd/kernel/search/flock/scattered_stream.h"
 
 #include <type_traits>

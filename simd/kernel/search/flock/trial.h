@@ -6,7 +6,7 @@
 #include "simd/kernel/search/flock/ticks.h"
 #include "simd/kernel/tuning.h"
 
-/// What trials by the clock have in common: those between sets, packets and flights
+/// What trials by the clock have in common: those between sets, packets and flights or sorted rays
 /// (scattered.cpp), and those between sorted and unsorted shadow rays (bundle/shadow_stream.h).
 namespace boule::BOULE_KERNEL_ISA {
 
