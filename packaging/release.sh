@@ -30,6 +30,7 @@ git archive --format=tar --prefix="boule-$version/" HEAD | gzip -9n | cmp - "$ta
   fail "the same commit makes another tarball"
 (./bootstrap.sh test) || fail "a test has failed"
 ./bootstrap.sh wheel
+python=$(/usr/bin/python3 -c 'import sys; print("cp{}{}".format(*sys.version_info))')  # wheels of others may lie there
 # As root the packages and the wheel are installed and used in roots that have nothing of Boule's.
 if ((EUID == 0)) && command -v debootstrap >/dev/null; then
   root=$(mktemp -d)
@@ -37,7 +38,7 @@ if ((EUID == 0)) && command -v debootstrap >/dev/null; then
   debootstrap --variant=minbase bookworm "$root/packages" >"$root/log"
   tests/packages/trial.sh build/package "$root/packages"
   debootstrap --variant=minbase --include=python3,python3-pip,python3-numpy bookworm "$root/wheel" >"$root/log"
-  tests/packages/wheel_trial.sh build/wheel/*.whl "$root/wheel"
+  tests/packages/wheel_trial.sh build/wheel/boule-"$version"-"$python"-*.whl "$root/wheel"
 else
   echo "release: the trials in clean roots need root and debootstrap: they were left out"
 fi
