@@ -93,8 +93,7 @@ class Browser:
         """Waits until all pictures are finished and show what was asked for last."""
         self.wait("""(() => {
             const {session, panes} = window.bouleView ?? {};
-            if (!session?.state || session.pending || session.state.number < session.settingsNumber)
-              return false;
+            if (!session?.state || session.pending) return false;
             return panes.panes.every(({element, shown}) =>
                 element.dataset.finished === 'true' && shown.number >= session.number);
             })()""", "a picture at rest")

@@ -37,7 +37,9 @@ export class Look {
     if (look === null) return;
     const rules = [...new Set(['', ...choices.outline_rules, look.outline_by])];
     fillSelect(byId('outline-by'), rules.map((rule) => [rule, outlineRuleName(rule)]), look.outline_by);
-    const isRefused = byId('ghost').hasAttribute('aria-invalid') && look.ghost === this.ghost;
+    // A text that is refused stays, but only in the page where it was typed.
+    const isRefused = byId('ghost').hasAttribute('aria-invalid') && look.ghost === this.ghost &&
+        byId('ghost').value.trim() !== look.ghost;
     if (!isRefused) showValue(byId('ghost'), look.ghost);
     this.ghost = look.ghost;
     const opacity = look.opacity ?? usualOpacity;

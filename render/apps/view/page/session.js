@@ -39,7 +39,6 @@ export class Session {
   /** Hands an answer, or an error, to who asked; whether somebody did. */
   answer(message) {
     const isError = message.type === 'error';
-    if (isError && message.about === 'stop_saving') return true;  // what is over already
     for (const [id, {type, resolve, reject}] of this.waiting) {
       if (message.id !== id || (!isError && message.type !== type)) continue;
       this.waiting.delete(id);
@@ -47,7 +46,7 @@ export class Session {
       else resolve(message);
       return true;
     }
-    return false;
+    return isError && message.about === 'stop_saving';  // what is over already
   }
 
   take(state) {
@@ -99,7 +98,7 @@ export class Session {
   stopSaving() {
     for (const [id, {type}] of this.waiting) {
       if (type !== 'saved' || this.connection.send({type: 'stop_saving', id})) continue;
-      this.giveUp('stopped');  // the server hears of it by hearing nothing
+      this.giveUp('stopped', (asked) => asked === 'saved');  // the server hears of it by hearing nothing
     }
   }
 

@@ -93,8 +93,9 @@ Result<Listener> Listener::open_file(const ServerSettings& settings) {
   std::memcpy(place.sun_path, settings.socket.c_str(), settings.socket.size());
   if (is_left_over(place)) ::unlink(place.sun_path);
   Listener listener(new_socket(AF_UNIX), AF_UNIX);
-  ::fchmod(listener.descriptor_, S_IRUSR | S_IWUSR);  // before its file is there
-  auto done = listener.bind_to(&place, sizeof place);
+  // The mode comes before the file, so that nobody else can open it in between.
+  const bool is_own = ::fchmod(listener.descriptor_, S_IRUSR | S_IWUSR) == 0;
+  auto done = is_own ? listener.bind_to(&place, sizeof place) : system_error();
   if (done) {
     listener.file_ = settings.socket;
     listener.identity_ = identity_of(settings.socket);

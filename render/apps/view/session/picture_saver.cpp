@@ -38,6 +38,7 @@ void PictureSaver::step(float stops) {
 }
 
 void PictureSaver::take_over(Asker asker) {
+  if (asker == asker_) return;  // it has asked twice
   if (asker.id == asker_.id && !is_client_here()) {
     asker_ = asker;
     absent_since_.reset();

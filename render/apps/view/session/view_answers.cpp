@@ -72,7 +72,8 @@ void ViewLoop::save(const SaveMessage& message) {
   const Asker asker{message.client, message.id};
   if (saver_.is_busy()) return saver_.take_over(asker);
   const auto pane = static_cast<std::size_t>(message.pane);
-  if (pane >= wish_.settings.panes.size()) return;  // the panes have changed meanwhile
+  if (pane >= wish_.settings.panes.size())
+    return saver_.refuse(Diagnostic::of("the panes have changed meanwhile"), asker);
   RenderOptions options = stage_.options(wish_, pane);
   options.spp = message.spp.value_or(options.spp);
   const bool is_shown = !must_begin_ && !failed_ && stage_.started() && stage_.done() &&

@@ -80,7 +80,9 @@ void ViewLoop::run() {
 /// When there is something to do even if nothing comes.
 ViewLoop::Clock::time_point ViewLoop::next_time() const {
   const auto now = Clock::now();
-  const auto later = std::min(now + std::chrono::hours(1), saver_.next_time(now));
+  // A picture is not saved while the camera moves.
+  const auto saving = std::max(saver_.next_time(now), parts_.mailbox.moving_until());
+  const auto later = std::min(now + std::chrono::hours(1), saving);
   if (parts_.audience.size() == 0) return later;
   if (must_begin_ && !failed_) return now;
   if (is_rendering()) return wish_.settings.pace > 0 ? last_step_ + milliseconds(30) : now;

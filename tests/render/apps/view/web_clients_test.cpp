@@ -145,6 +145,7 @@ TEST(WebClients, OnlyItsClientStopsASave) {
   EXPECT_EQ(other.wait_for("error")["about"], "stop_saving");
   other.send(long_save(7));
   EXPECT_THAT(other.wait_for("error")["text"], testing::HasSubstr("another page is saving"));
+  owner.send(long_save(7));  // it is that one already: no error
   owner.send({{"type", "stop_saving"}, {"id", 6}});
   EXPECT_EQ(owner.wait_for("error")["id"], 6);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(owner.wait_for("saving")["id"], 7);
@@ -152,6 +153,7 @@ TEST(WebClients, OnlyItsClientStopsASave) {
   const Json stopped = owner.wait_for("error");
   EXPECT_EQ(stopped["about"], "save");
   EXPECT_EQ(stopped["id"], 7);
+  EXPECT_EQ(stopped["text"], "stopped");
   other.send(long_save(8));
   EXPECT_EQ(other.wait_for("saving")["id"], 8);
 }
