@@ -304,6 +304,40 @@ TEST_P(PathKernels, EmittedLightEqualsTheScalarPaths) {
   }
 }
 
+/// Rays that pass by the rim of a light, or within it, from next to it to so far away that floats
+/// cannot tell which.
+TEST_P(PathKernels, RimsOfLightsEqualTheScalarPaths) {
+  const Background black{ConstantBackground{}};
+  for (int k = 0; k < 10; ++k) {
+    const Vec3d center = random.direction() * random.uniform(0, 9);
+    const double radius = random.uniform(0.01, 2);
+    const LightSphere light{{center.x, center.y, center.z}, radius, 1, 0, {1, 2, 3}};
+    std::vector<Ray> passing;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3f dir = vec_cast<float>(random.direction() * (i % 9 == 0 ? 0x1p-22 : 1.0));
+      const Vec3d unit = normalize(vec_cast<double>(dir));
+      const Vec3d aside = random.perpendicular(unit) * (radius * random.uniform(0.7, 1.1));
+      passing.push_back({center + aside - unit * (radius * random.decade(k, k + 1)), dir});
+    }
+    rays = to_stream(passing);
+    hits.resize(count);
+    kernels->closest_hit(Geometry({}, {}).view(), rays.view(), {}, hits.view());
+    const SeenLight seen{{}, &light, 1, 1, HitWeight::full};
+    AlignedArray<float> densities(count, 1);
+    ColorBuffer radiance;
+    radiance.resize(count);
+    kernels->see_light(seen, {rays.view(), hits.view(), densities.data(), radiance.view()});
+    std::size_t met_rays = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Color expected = seen_by(rays.get(i), hits.get(i), 1, seen, black);
+      met_rays += expected.r > 0 ? 1U : 0U;
+      ASSERT_EQ(radiance.get(i), expected) << "ray " << i << ", decade " << k;
+    }
+    EXPECT_GT(met_rays, count / 2) << k;
+    EXPECT_LT(met_rays, count) << k;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Tables, PathKernels, each_isa(), isa_name);
 
 }  // namespace
