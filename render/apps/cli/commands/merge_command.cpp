@@ -124,13 +124,9 @@ ImageFileOptions file_options(const MergeCommand& command, Merging& merging,
 
 ExitCode write(const MergeCommand& command, Merging& merging, const std::string& date) {
   const Image image = merging.image();
-  Status status;
-  {
-    const WriteGuard guard;
-    status = write_image(image, command.output, file_options(command, merging, date));
-    if (status) set_written("the picture had been written");
-  }
-  exit_if_interrupted();
+  const Status status = write_guarded(
+      [&] { return write_image(image, command.output, file_options(command, merging, date)); },
+      "the picture had been written");
   if (!status) return report(status.error(), failed);
   const std::string films = counted(command.films.size(), "film");
   if (const auto& partial = merging.partial()) {  // even if quiet, as render does

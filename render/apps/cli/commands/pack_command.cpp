@@ -128,13 +128,11 @@ ExitCode write(const PackCommand& command, Input input, const ParallelFor& paral
       .beside = {},
       .parallel_for = parallel_for,
       .stop = [] { return WriteGuard::interrupted(); }};
-  Result<PackResult> packed = Diagnostic::of("");
-  {
-    const WriteGuard guard;
-    packed = pack({std::move(input.scene), input.origin, *input.spheres, command.output, means});
-    if (packed) set_written("the packed scene had been written");
-  }
-  exit_if_interrupted();
+  const Result<PackResult> packed = write_guarded(
+      [&] {
+        return pack({std::move(input.scene), input.origin, *input.spheres, command.output, means});
+      },
+      "the packed scene had been written");
   if (!packed) return report(packed.error(), packed.error().file.empty() ? failed : invalid_input);
   if (!command.quiet) {
     const PackResult& result = packed.value();

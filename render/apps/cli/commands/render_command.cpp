@@ -67,12 +67,8 @@ class SeriesTotals {
 /// Writes the legend, if one is asked for.
 ExitCode write_legend(const RenderCommand& command, const SceneLoader& loader) {
   if (command.legend.empty()) return done;
-  Status status;
-  {
-    const WriteGuard guard;
-    status = write_text_file(legend_svg(loader.colors()), command.legend);
-  }
-  exit_if_interrupted();
+  const Status status =
+      write_guarded([&] { return write_text_file(legend_svg(loader.colors()), command.legend); });
   return status ? done : report(status.error(), failed);
 }
 

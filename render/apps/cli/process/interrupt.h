@@ -79,4 +79,18 @@ void set_written(const char* end);
 /// Ends the program as the handler would have, if a signal came while a WriteGuard lived.
 void exit_if_interrupted();
 
+/// What `write` returns, a Status or a Result, which is called within a WriteGuard. If that is no
+/// error, and `end` is not null, set_written(end) is called. Ends the program if a signal came.
+template <class Write>
+auto write_guarded(const Write& write, const char* end = nullptr) {
+  auto done = [&] {
+    const WriteGuard guard;
+    auto status = write();
+    if (status && end != nullptr) set_written(end);
+    return status;
+  }();
+  exit_if_interrupted();
+  return done;
+}
+
 }  // namespace boule::cli

@@ -174,14 +174,10 @@ ExitCode Rendering::write_parts(Renderer& renderer, PartRun& run, const FilmHead
 
 ExitCode Rendering::write_film(const PartRun& run, const FilmHead& head) {
   const Stopwatch watch;
-  Status status;
-  {
-    const WriteGuard guard;
-    status = film_file::write(command_.output, head, run.sheet(),
-                              [] { return WriteGuard::interrupted(); });
-    if (status) set_written("the film had been written");
-  }
-  exit_if_interrupted();
+  const auto stop = [] { return WriteGuard::interrupted(); };
+  const Status status =
+      write_guarded([&] { return film_file::write(command_.output, head, run.sheet(), stop); },
+                    "the film had been written");
   stats_.write_seconds = watch.seconds();
   return status ? done : refuse(status.error(), command_, failed);
 }

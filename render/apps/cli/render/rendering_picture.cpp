@@ -88,21 +88,19 @@ Result<Image> Rendering::make_measured_image(Renderer& renderer,
 
 template <class Write>
 Status Rendering::guarded_write(ImageFileOptions options, const Write& write) {
-  Status status;
   // After rendering, a signal that StopGuard catches ends the waiting for a pipe's reader.
   const auto caught = [before = StopGuard::caught()] { return StopGuard::caught() != before; };
-  const WriteGuard guard;
-  std::optional<RemovalGuard> removal;
-  options.stop = [&caught, stream = is_stream(command_.output)] {
-    return WriteGuard::interrupted() || (stream && caught());
-  };
-  options.temporary = [&](const std::string& path) {
-    removal.reset();
-    path.empty() ? tell_sending(command_.output) : static_cast<void>(removal.emplace(path));
-  };
-  status = write(options);
-  removal.reset();
-  return status;
+  return write_guarded([&] {
+    std::optional<RemovalGuard> removal;
+    options.stop = [&caught, stream = is_stream(command_.output)] {
+      return WriteGuard::interrupted() || (stream && caught());
+    };
+    options.temporary = [&](const std::string& path) {
+      removal.reset();
+      path.empty() ? tell_sending(command_.output) : static_cast<void>(removal.emplace(path));
+    };
+    return write(options);
+  });
 }
 
 void Rendering::tell_written() const {
@@ -131,7 +129,6 @@ ExitCode Rendering::write(const Image& image, ImageFileOptions options) {
     if (written) tell_written();
     return written;
   });
-  exit_if_interrupted();
   if (!status && StopGuard::caught() != caught) leave_as_caught();
   stats_.write_seconds = watch.seconds();
   return status ? done : refuse(status.error(), command_, failed);
@@ -148,7 +145,6 @@ void Rendering::show(const Renderer& renderer, const PartRun& run, const FilmHea
   const Status shown = guarded_write(std::move(options), [&](const ImageFileOptions& file) {
     return write_shown(image, command_.preview->file, file);
   });
-  exit_if_interrupted();
   if (!shown) report_.note_once("boule: note: no preview: " + format_diagnostic(shown.error()));
 }
 
@@ -173,7 +169,6 @@ ExitCode Rendering::render_bands(Renderer& renderer) {
     if (done) tell_written();
     return done;
   });
-  exit_if_interrupted();
   if (cancelled) return explain(status.error());
   stats_.write_seconds = std::max(watch.seconds() - renderer.statistics().render_seconds, 0.0);
   if (!status) return refuse(status.error(), command_, failed);

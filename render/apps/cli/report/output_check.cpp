@@ -23,14 +23,10 @@ Status check_stream(const std::string& name, mode_t mode) {
 
 /// Tries it out: creates the temporary file that writing would create, and removes it again.
 Status check_file(const std::string& name) {
-  Status status;
-  {
-    const WriteGuard guard;
+  return write_guarded([&]() -> Status {
     const auto file = OutputFile::create(name, [] { return WriteGuard::interrupted(); });
-    if (!file) status = file.error();
-  }
-  exit_if_interrupted();
-  return status;
+    return file ? Status() : Status(file.error());
+  });
 }
 
 }  // namespace

@@ -102,12 +102,7 @@ void RunReport::prepared(const RunStatistics& run) const {
 }
 
 ExitCode RunReport::finish(const Stats& stats) const {
-  Status status;
-  {
-    const WriteGuard guard;
-    status = write_stats(stats, options_.stats);
-  }
-  exit_if_interrupted();
+  const Status status = write_guarded([&] { return write_stats(stats, options_.stats); });
   return status ? done : report(status.error(), failed);
 }
 
