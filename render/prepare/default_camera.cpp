@@ -67,27 +67,32 @@ Camera camera_of_packed(const Scene& scene, int width, int height) {
   return fitter.camera();
 }
 
+/// A box of nothing, to be widened.
+SphereBounds empty_box() {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  return {{inf, inf, inf}, {-inf, -inf, -inf}};
+}
+
+/// Widens a box by that of a sphere.
+void widen(SphereBounds& box, const Sphere& s) {
+  const Vec3d c = vec_cast<double>(s.center);
+  const auto r = static_cast<double>(s.radius);
+  auto& [low, high] = box;
+  low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r), std::min(low.z, c.z - r)};
+  high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r), std::max(high.z, c.z + r)};
+}
+
 }  // namespace
 
 SphereBounds bounds_of(const Scene& scene) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  Vec3d low{inf, inf, inf}, high{-inf, -inf, -inf};
   const bool packed = scene.packed && scene.packed->count > 0;
-  if (packed) {
-    low = scene.packed->low;
-    high = scene.packed->high;
-  }
-  const auto add = [&low, &high](SphereRun spheres) {
-    for (const Sphere& s : spheres) {
-      const Vec3d c = vec_cast<double>(s.center);
-      const auto r = static_cast<double>(s.radius);
-      low = {std::min(low.x, c.x - r), std::min(low.y, c.y - r), std::min(low.z, c.z - r)};
-      high = {std::max(high.x, c.x + r), std::max(high.y, c.y + r), std::max(high.z, c.z + r)};
-    }
+  SphereBounds box = packed ? SphereBounds{scene.packed->low, scene.packed->high} : empty_box();
+  const auto add = [&box](SphereRun spheres) {
+    for (const Sphere& s : spheres) widen(box, s);
   };
   if (packed) {
     visit_end_spheres(scene, add);
-    return {low, high};
+    return box;
   }
   std::vector<SphereMeasure> measures;
   for (const Vec3d& axis : {Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}}) {
@@ -95,13 +100,21 @@ SphereBounds bounds_of(const Scene& scene) {
     measures.push_back({axis * -1.0, 1});
   }
   ShownExtremes(scene, serial_for).runs(measures)(add);
-  return {low, high};
+  return box;
 }
 
 SphereBounds bounds_without_outliers(const Scene& scene) {
   const auto median = median_sphere(scene);
-  const auto rest = median ? without_outliers(scene, *median) : std::nullopt;
-  return bounds_of(rest ? *rest : scene);
+  if (!median) return bounds_of(scene);
+  const NearOthers is_near(scene, *median);
+  SphereBounds box = empty_box();
+  for (const Sphere& s : scene.spheres) {
+    if (is_near(s)) widen(box, s);
+  }
+  visit_end_spheres(scene, [&box](SphereRun ends) {
+    for (const Sphere& s : ends) widen(box, s);
+  });
+  return box;
 }
 
 View view_of(const Scene& scene, const ParallelFor& parallel_for) {

@@ -1,10 +1,12 @@
 #include "render/prepare/outlying_spheres.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 
 #include "core/math/geometry.h"
@@ -69,16 +71,23 @@ bool may_be_specks(const Scene& scene, const Camera& camera, int width, int heig
   return median && pixels_across(*median, camera, width, height) < 2;
 }
 
+NearOthers::NearOthers(const Scene& scene, const Sphere& median) : center_(median.center) {
+  const std::vector<Sphere>& spheres = scene.spheres;
+  const std::uint64_t outside = spheres.size() / 200;  // 0.5 %
+  reach_ = 2 * at_rank(spheres, spheres.size() - 1 - outside,
+                       [this](const Sphere& s) { return distance_between(s.center, center_); });
+}
+
+bool NearOthers::operator()(const Sphere& sphere) const {
+  return distance_between(sphere.center, center_) <= reach_;
+}
+
 std::optional<Scene> without_outliers(const Scene& scene, const Sphere& median) {
   const std::vector<Sphere>& spheres = scene.spheres;
-  const auto distance = [&](const Sphere& s) { return distance_between(s.center, median.center); };
-  const std::uint64_t outside = spheres.size() / 200;  // 0.5 %
-  const float reach = 2 * at_rank(spheres, spheres.size() - 1 - outside, distance);
+  const NearOthers is_near(scene, median);
+  if (std::all_of(spheres.begin(), spheres.end(), is_near)) return std::nullopt;
   Scene rest;
-  for (const Sphere& sphere : spheres) {
-    if (distance(sphere) <= reach) rest.spheres.push_back(sphere);
-  }
-  if (rest.spheres.size() == spheres.size()) return std::nullopt;
+  std::copy_if(spheres.begin(), spheres.end(), std::back_inserter(rest.spheres), is_near);
   rest.fit = scene.fit;
   rest.planes = scene.planes;
   rest.capsules = scene.capsules;

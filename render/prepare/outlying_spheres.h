@@ -16,10 +16,21 @@ std::optional<Sphere> median_sphere(const Scene& scene);
 /// the camera is a fitted one.
 bool may_be_specks(const Scene& scene, const Camera& camera, int width, int height);
 
-/// The scene without the spheres that lie far from all others: farther from the median centre than
-/// twice the distance within which 99.5 % of the centres lie. Its camera's settings and its planes
-/// and capsules are kept, all else is left out. None if there are no such spheres. Precondition:
-/// the scene has a median_sphere(), which is `median`.
+/// True of the spheres that do not lie far from all others: not farther from the median centre than
+/// twice the distance within which 99.5 % of the centres lie.
+class NearOthers {
+ public:
+  /// Precondition: the scene has a median_sphere(), which is `median`.
+  NearOthers(const Scene& scene, const Sphere& median);
+  bool operator()(const Sphere& sphere) const;
+
+ private:
+  Vec3f center_;
+  float reach_;
+};
+
+/// The scene with these spheres alone. Its camera's settings and its planes and capsules are kept,
+/// all else is left out. None if these are all of its spheres. Precondition: as above.
 std::optional<Scene> without_outliers(const Scene& scene, const Sphere& median);
 
 /// The diameter of a sphere in pictures of this size, in pixels. Precondition: the camera is a

@@ -54,6 +54,19 @@ TEST(OutlyingSpheres, FewFarOnesAreLeftOut) {
   EXPECT_EQ(std::get<PinholeCamera>(camera).pose.eye, std::get<PinholeCamera>(other).pose.eye);
 }
 
+TEST(OutlyingSpheres, BoxesLeaveThemOutButNotCapsules) {
+  Scene scene = stars(1000);
+  scene.capsules.push_back({{0, 20, 0}, {0, 4000, 0}, 1, 0});
+  const SphereBounds near = bounds_of(scene);
+  EXPECT_EQ(bounds_without_outliers(scene).low, near.low);
+  EXPECT_EQ(bounds_without_outliers(scene).high, near.high);
+  EXPECT_EQ(near.high.y, 4001);
+  scene.spheres.insert(scene.spheres.begin(), Sphere{{0, -9000, 0}, 0.02f, 0});
+  EXPECT_LT(bounds_of(scene).low.y, -9000);
+  EXPECT_EQ(bounds_without_outliers(scene).low, near.low);
+  EXPECT_EQ(bounds_without_outliers(scene).high, near.high);
+}
+
 TEST(OutlyingSpheres, StayWhereTheyHideNothing) {
   Scene scene = stars(1000);
   scene.spheres.push_back({{5000, 0, 0}, 0.02f, 0});
