@@ -24,10 +24,10 @@ Result<DumpPlaces> find_binary_frames(std::string_view bytes) {
   DumpPlaces found;
   std::optional<double> length;
   for (std::size_t at = 0; at < bytes.size() || at == 0;) {
-    const auto head = read_binary_dump_head(bytes, at);
-    const auto end =
-        head ? skip_chunks(bytes, head.value(), nullptr) : Result<std::size_t>(head.error());
-    const bool is_cut = !end && end.error().message.find(cut_short) != std::string::npos;
+    bool is_cut = false;
+    const auto head = read_binary_dump_head(bytes, at, &is_cut);
+    const auto end = head ? skip_chunks(bytes, head.value(), nullptr, &is_cut)
+                          : Result<std::size_t>(head.error());
     if (is_cut && !found.frames.empty()) {
       found.whole = end.error();
       break;

@@ -58,7 +58,7 @@ class DumpBytes {
   /// An error about what was taken last.
   [[nodiscard]] Diagnostic wrong(const std::string& message, std::string key = {}) const {
     if (!ended_) return error_at_byte(last_, message, std::move(key));
-    return error_at_byte(last_, std::string(cut_short) + " the head of a frame");
+    return error_at_byte(last_, "the file ends in the head of a frame");
   }
 
  private:
@@ -84,6 +84,9 @@ class BinaryHeadReader {
     if (!read) return read.error();
     return std::move(head_);
   }
+
+  /// Whether the bytes end in the head.
+  [[nodiscard]] bool is_cut() const { return bytes_.ended(); }
 
  private:
   /// A negative number in place of the time step tells the length of the format's name.
@@ -223,18 +226,23 @@ class BinaryHeadReader {
 
 }  // namespace
 
-Result<BinaryDumpHead> read_binary_dump_head(std::string_view bytes, std::size_t begin) {
-  return BinaryHeadReader(bytes, begin).read();
+Result<BinaryDumpHead> read_binary_dump_head(std::string_view bytes, std::size_t begin,
+                                             bool* is_cut) {
+  BinaryHeadReader reader(bytes, begin);
+  auto head = reader.read();
+  if (is_cut != nullptr && !head && reader.is_cut()) *is_cut = true;
+  return head;
 }
 
 Result<std::size_t> skip_chunks(std::string_view bytes, const BinaryDumpHead& head,
-                                std::vector<BinaryDumpChunk>* chunks) {
+                                std::vector<BinaryDumpChunk>* chunks, bool* is_cut) {
   constexpr std::uint64_t most_rows = std::uint64_t{1} << 16;
   std::size_t at = head.first_chunk;
   std::uint64_t rows = 0;
   for (std::uint32_t chunk = 0; chunk < head.chunks; ++chunk) {
     const auto ends = [&] {
-      return error_at_byte(at, std::string(cut_short) + " the particles of a frame");
+      if (is_cut != nullptr) *is_cut = true;
+      return error_at_byte(at, "the file ends in the particles of a frame");
     };
     if (bytes.size() - at < 4) return ends();
     const auto numbers = load_number<std::int32_t>(bytes.data() + at, head.is_big_endian);

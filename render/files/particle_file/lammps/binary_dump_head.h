@@ -24,8 +24,10 @@ struct BinaryDumpHead {
   std::size_t first_chunk = 0;  ///< the byte where they begin
 };
 
-/// Reads the head of the frame that begins at a byte.
-Result<BinaryDumpHead> read_binary_dump_head(std::string_view bytes, std::size_t begin);
+/// Reads the head of the frame that begins at a byte. `is_cut`, if it is not null, is set to true
+/// where the error is that the bytes end too early; likewise below.
+Result<BinaryDumpHead> read_binary_dump_head(std::string_view bytes, std::size_t begin,
+                                             bool* is_cut = nullptr);
 
 /// Some particles that follow each other.
 struct BinaryDumpChunk {
@@ -33,12 +35,9 @@ struct BinaryDumpChunk {
   std::uint64_t rows;
 };
 
-/// What errors about a file that ends too early say.
-inline constexpr std::string_view cut_short = "the file ends in";
-
 /// Goes through a frame's chunks, which hold as many particles as its head says, and returns where
 /// the frame ends. `chunks`, if it is not null, gets their particles, in pieces of a size to share.
 Result<std::size_t> skip_chunks(std::string_view bytes, const BinaryDumpHead& head,
-                                std::vector<BinaryDumpChunk>* chunks);
+                                std::vector<BinaryDumpChunk>* chunks, bool* is_cut = nullptr);
 
 }  // namespace boule
