@@ -161,7 +161,8 @@ export class Rays {
   }
 
   primitiveName({primitive, material}) {
-    const kind = primitive < this.session.state.scene.spheres ? 'sphere' : 'plane';
+    const {spheres, planes} = this.session.state.scene;
+    const kind = primitive < spheres ? 'sphere' : primitive < spheres + planes ? 'plane' : 'capsule';
     return `${kind} ${primitive}${material ? ` (${material})` : ''}`;
   }
 }
