@@ -201,10 +201,8 @@ bool starts_like_binary_dump(std::string_view start) {
 
 Result<std::unique_ptr<ParticleReader>> open_binary_dump(MappedText bytes,
                                                          const ParticleFileOptions& options) {
-  auto found = find_binary_frames(bytes.text());
-  if (!found) return found.error();
-  return std::unique_ptr<ParticleReader>(
-      std::make_unique<BinaryDumpReader>(std::move(bytes), options, std::move(found).value()));
+  return placed_reader<BinaryDumpReader>(find_binary_frames(bytes.text()), std::move(bytes),
+                                         options);
 }
 
 }  // namespace boule

@@ -279,10 +279,7 @@ bool starts_like_yaml_dump(std::string_view start) {
 
 Result<std::unique_ptr<ParticleReader>> open_yaml_dump(MappedText bytes,
                                                        const ParticleFileOptions& options) {
-  auto found = find_yaml_frames(bytes.text());
-  if (!found) return found.error();
-  return std::unique_ptr<ParticleReader>(
-      std::make_unique<YamlDumpReader>(std::move(bytes), options, std::move(found).value()));
+  return placed_reader<YamlDumpReader>(find_yaml_frames(bytes.text()), std::move(bytes), options);
 }
 
 }  // namespace boule

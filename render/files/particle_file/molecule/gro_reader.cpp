@@ -138,10 +138,7 @@ class GroReader : public PlacedReader<GroFrame> {
 Result<std::unique_ptr<ParticleReader>> open_gro(MappedText bytes,
                                                  const ParticleFileOptions& options,
                                                  const ParallelFor&) {
-  auto places = find_gro_frames(bytes.text());
-  if (!places) return places.error();
-  return std::unique_ptr<ParticleReader>(
-      std::make_unique<GroReader>(std::move(bytes), options, std::move(places).value()));
+  return placed_reader<GroReader>(find_gro_frames(bytes.text()), std::move(bytes), options);
 }
 
 /// A title, a count, and a row of fixed columns.

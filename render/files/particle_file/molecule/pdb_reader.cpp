@@ -76,10 +76,8 @@ Result<std::unique_ptr<ParticleReader>> open_pdb(MappedText bytes,
                                                  const ParticleFileOptions& options,
                                                  const ParallelFor&) {
   if (!has_gemmi()) return Diagnostic::of("this build of Boule lacks gemmi's reader of PDB files");
-  auto frames = find_pdb_frames(bytes.text(), !bytes.whole().ok());
-  if (!frames) return frames.error();
-  return std::unique_ptr<ParticleReader>(
-      std::make_unique<PdbReader>(std::move(bytes), options, std::move(frames).value()));
+  return placed_reader<PdbReader>(find_pdb_frames(bytes.text(), !bytes.whole().ok()),
+                                  std::move(bytes), options);
 }
 
 /// The first atom's record has positions.

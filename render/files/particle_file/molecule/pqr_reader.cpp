@@ -147,10 +147,8 @@ class PqrReader : public PlacedReader<PdbFrame> {
 Result<std::unique_ptr<ParticleReader>> open_pqr(MappedText bytes,
                                                  const ParticleFileOptions& options,
                                                  const ParallelFor&) {
-  auto frames = find_pdb_frames(bytes.text(), !bytes.whole().ok());
-  if (!frames) return frames.error();
-  return std::unique_ptr<ParticleReader>(
-      std::make_unique<PqrReader>(std::move(bytes), options, std::move(frames).value()));
+  return placed_reader<PqrReader>(find_pdb_frames(bytes.text(), !bytes.whole().ok()),
+                                  std::move(bytes), options);
 }
 
 }  // namespace

@@ -279,10 +279,7 @@ Result<std::unique_ptr<ParticleReader>> open_xyz(MappedText bytes,
   if (!lines.at_end() && !count_in(without_blanks(lines.peek()))) {
     return open_without_count(std::move(bytes), options, parallel_for, lines);
   }
-  auto places = find_xyz_frames(bytes);
-  if (!places) return places.error();
-  return std::unique_ptr<ParticleReader>(
-      std::make_unique<XyzReader>(std::move(bytes), options, std::move(places).value()));
+  return placed_reader<XyzReader>(find_xyz_frames(bytes), std::move(bytes), options);
 }
 
 /// A count, a comment, and a row of a name and three numbers.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -37,6 +38,15 @@ class PlacedReader : public ParticleReader {
   ParticleFileOptions options_;
   FramePlaces<Place> places_;
 };
+
+/// The reader of the frames whose places were found in these bytes.
+template <class Reader, class Places>
+Result<std::unique_ptr<ParticleReader>> placed_reader(Result<Places> found, MappedText&& bytes,
+                                                      const ParticleFileOptions& options) {
+  if (!found) return found.error();
+  return std::unique_ptr<ParticleReader>(
+      std::make_unique<Reader>(std::move(bytes), options, std::move(found).value()));
+}
 
 /// True if the last of some rows, where the file ends without an end of line, is only a part of a
 /// row such as `whole`: it has fewer words, or no number where that one ends with a number.
