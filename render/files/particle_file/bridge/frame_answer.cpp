@@ -164,12 +164,6 @@ class Blocks {
  private:
   [[nodiscard]] std::size_t count() const { return static_cast<std::size_t>(lines_.particles); }
 
-  /// Whether a column gets the name, which positions have, or another column.
-  [[nodiscard]] bool is_free(const std::string& name) const {
-    return !name.empty() && name != "x" && name != "y" && name != "z" &&
-           find_number_column(frame_, name) == nullptr && find_text_column(frame_, name) == nullptr;
-  }
-
   Status read_column_of(const ColumnLine& line) {
     if (line.kind == ColumnLine::Kind::number) return read_numbers(line);
     return line.kind == ColumnLine::Kind::bonds ? read_bonded(line) : read_texts(line);
@@ -196,7 +190,7 @@ class Blocks {
     NumberColumn column{line.name, std::vector<double>(count())};
     if (auto done = process_.read(column.values.data(), count() * sizeof(double)); !done)
       return done;
-    if (!is_free(line.name)) return {};
+    if (!is_free_name(frame_, line.name)) return {};
     if (is_wanted(options_.wanted, line.name)) {
       frame_.numbers.push_back(std::move(column));
     } else {
@@ -224,7 +218,7 @@ class Blocks {
     if (column.texts.size() != line.texts || !are_right) return not_understood(line.name);
     if (line.kind == ColumnLine::Kind::species) {
       frame_.species = std::move(column);
-    } else if (is_free(line.name)) {
+    } else if (is_free_name(frame_, line.name)) {
       frame_.texts.push_back(std::move(column));
     }
     return {};

@@ -47,6 +47,11 @@ const TextColumn* find_text_column(const ParticleFrame& frame, const std::string
   return find_column(frame.texts, name);
 }
 
+bool is_free_name(const ParticleFrame& frame, const std::string& name) {
+  return !name.empty() && name != "x" && name != "y" && name != "z" &&
+         find_number_column(frame, name) == nullptr && find_text_column(frame, name) == nullptr;
+}
+
 void put_in_order(std::vector<ParticleBond>& bonds) {
   for (ParticleBond& bond : bonds) {
     if (bond.b < bond.a) std::swap(bond.a, bond.b);

@@ -107,6 +107,9 @@ void put_in_order(std::vector<ParticleBond>& bonds);
 /// others by their places among these.
 void keep_bonds(std::vector<ParticleBond>& bonds, const std::vector<std::uint8_t>& kept);
 
+/// Whether a column can have this name, which neither positions nor another column have.
+bool is_free_name(const ParticleFrame& frame, const std::string& name);
+
 /// Whether a column is to be read: all are if `wanted` is empty.
 bool is_wanted(const std::optional<std::vector<std::string>>& wanted, std::string_view name);
 

@@ -117,11 +117,6 @@ Status Hdf5Parts::read_places(const Range& range, std::vector<Vec3d>& positions)
   });
 }
 
-bool Hdf5Parts::is_free(const std::string& name, const ParticleFrame& frame) const {
-  return !name.empty() && name != "x" && name != "y" && name != "z" &&
-         find_number_column(frame, name) == nullptr && find_text_column(frame, name) == nullptr;
-}
-
 /// Its columns that are wanted, as far as they have names of their own.
 Status Hdf5Parts::read_array(const Hdf5Array& array, const Range& range,
                              ParticleFrame& frame) const {
@@ -129,7 +124,7 @@ Status Hdf5Parts::read_array(const Hdf5Array& array, const Range& range,
   std::vector<std::size_t> columns(width);  // places among the numbers + 1; 0: none
   for (std::size_t k = 0; k < width; ++k) {
     const std::string& name = array.names[k];
-    if (!is_free(name, frame)) continue;
+    if (!is_free_name(frame, name)) continue;
     if (!is_wanted(options_.wanted, name)) {
       frame.unread.push_back(name);
       continue;
@@ -162,7 +157,7 @@ Status Hdf5Parts::read_texts(const Range& range, ParticleFrame& frame) {
   for (std::size_t i = 0; i < texts_.size(); ++i) {
     Hdf5TextColumn& column = texts_[i];
     const bool are_species = i == 0 && layout_.species;
-    if (!are_species && !is_free(column.name(), frame)) continue;
+    if (!are_species && !is_free_name(frame, column.name())) continue;
     TextColumn read{column.name(), {}, {}};
     for (std::size_t done = 0; done < range.count; done += particles_at_once) {
       const std::size_t count = std::min(particles_at_once, range.count - done);

@@ -42,7 +42,6 @@ class Hdf5Parts final : public FrameParts {
   Status read_numbers(const Hdf5Numbers& numbers, std::size_t width, const Range& range,
                       double* to) const;
   [[nodiscard]] TextColumn kinds_of_parts(const Range& range) const;
-  [[nodiscard]] bool is_free(const std::string& name, const ParticleFrame& frame) const;
 
   std::shared_ptr<const Hdf5File> file_;
   Hdf5Layout layout_;
