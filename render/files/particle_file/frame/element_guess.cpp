@@ -4,9 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
+#include <vector>
+
+#include "core/base/text.h"
+#include "render/files/particle_file/text/text_interner.h"
 
 namespace boule {
 namespace {
@@ -19,16 +22,14 @@ constexpr std::string_view symbols =
     "NpPuAmCm"
     "BkCfEsFmMdNoLrRfDbSgBhHsMtDsRgCnNhFlMcLvTsOg";
 
-bool is_capital(char c) { return c >= 'A' && c <= 'Z'; }
 bool is_small(char c) { return c >= 'a' && c <= 'z'; }
 char capital(char c) { return is_small(c) ? static_cast<char>(c - 'a' + 'A') : c; }
-char small(char c) { return is_capital(c) ? static_cast<char>(c - 'A' + 'a') : c; }
 
 /// The symbol of these letters, in any case, or of one and ' '; empty if there is none.
 std::string_view symbol_of(char first, char second) {
   if (second == ' ' && capital(first) == 'D') return "D";
   for (std::size_t i = 0; i < symbols.size(); i += 2) {
-    if (symbols[i] != capital(first) || symbols[i + 1] != small(second)) continue;
+    if (symbols[i] != capital(first) || symbols[i + 1] != ascii_lower(second)) continue;
     return symbols.substr(i, second == ' ' ? 1 : 2);
   }
   return {};
@@ -38,7 +39,7 @@ std::string_view symbol_of(char first, char second) {
 std::string letters_of(std::string_view name) {
   std::string letters;
   for (const char c : name) {
-    if (is_capital(c) || is_small(c)) letters += capital(c);
+    if (is_letter(c)) letters += capital(c);
   }
   return letters;
 }
@@ -76,8 +77,7 @@ std::string_view ion_of_atom(std::string_view atom, std::string_view residue) {
 }
 
 std::string_view element_of_atom(std::string_view atom, std::string_view residue) {
-  const auto* const begin =
-      std::find_if(atom.begin(), atom.end(), [](char c) { return is_capital(c) || is_small(c); });
+  const auto* const begin = std::find_if(atom.begin(), atom.end(), is_letter);
   const std::string_view name = atom.substr(static_cast<std::size_t>(begin - atom.begin()));
   if (name.empty()) return atom;
   const char second = name.size() > 1 ? name[1] : ' ';
@@ -96,23 +96,25 @@ void guess_species(ParticleFrame& frame) {
   const TextColumn* const names = find_text_column(frame, "name");
   const TextColumn* const residues = find_text_column(frame, "resname");
   if (names == nullptr) return;
+  /// By the atom's name: the last residue that had it. Each pair is looked at once as a rule.
+  struct Known {
+    std::uint32_t residue = UINT32_MAX, element = 0;
+  };
+  std::vector<Known> known(names->texts.size());
+  TextInterner elements;
   TextColumn species{"element", {}, std::vector<std::uint32_t>(frame.size())};
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> known;
-  std::map<std::string_view, std::uint32_t> elements;
   for (std::size_t i = 0; i < frame.size(); ++i) {
-    const std::uint32_t name = names->indices[i];
+    const std::uint32_t atom = names->indices[i];
     const std::uint32_t residue = residues != nullptr ? residues->indices[i] : 0;
-    const auto [found, is_new] = known.try_emplace({name, residue}, 0);
-    if (is_new) {
-      const std::string_view element = element_of_atom(
-          names->texts[name], residues != nullptr ? residues->texts[residue] : std::string());
-      const auto next = static_cast<std::uint32_t>(species.texts.size());
-      const auto [place, is_first] = elements.try_emplace(element, next);
-      if (is_first) species.texts.emplace_back(element);
-      found->second = place->second;
+    Known& last = known[atom];
+    if (last.residue != residue) {
+      const std::string_view of =
+          residues != nullptr ? residues->texts[residue] : std::string_view();
+      last = {residue, elements.index_of(element_of_atom(names->texts[atom], of))};
     }
-    species.indices[i] = found->second;
+    species.indices[i] = last.element;
   }
+  species.texts.assign(elements.texts().begin(), elements.texts().end());
   frame.species = std::move(species);
   frame.notes.emplace_back(elements_are_guessed);
 }

@@ -164,29 +164,6 @@ class GroPieceReader {
   std::size_t row_ = 0;
 };
 
-/// The species by the names of residues and atoms, each pair looked at once as a rule.
-TextColumn elements_of(const TextColumn& residues, const TextColumn& atoms) {
-  struct Known {
-    std::uint32_t residue = 0, element = 0;
-    bool is_known = false;
-  };
-  TextColumn elements{"element", {}, {}};
-  elements.indices.resize(atoms.indices.size());
-  std::vector<Known> known(atoms.texts.size());  // by atom's name: the last residue that had it
-  TextInterner all;
-  for (std::size_t row = 0; row < atoms.indices.size(); ++row) {
-    const std::uint32_t atom = atoms.indices[row], residue = residues.indices[row];
-    Known& last = known[atom];
-    if (!last.is_known || last.residue != residue) {
-      last = {residue, all.index_of(element_of_atom(atoms.texts[atom], residues.texts[residue])),
-              true};
-    }
-    elements.indices[row] = last.element;
-  }
-  elements.texts.assign(all.texts().begin(), all.texts().end());
-  return elements;
-}
-
 }  // namespace
 
 std::optional<std::size_t> gro_width(std::string_view row) {
@@ -225,13 +202,8 @@ Status read_gro_rows(const GroRows& rows, const std::optional<std::vector<std::s
   for (std::size_t i = 0; i < frame.texts.size(); ++i) {
     merge_texts(pieces, i, frame.texts[i], parallel_for);
   }
-  frame.species = elements_of(frame.texts[0], frame.texts[1]);
-  frame.notes.emplace_back(elements_are_guessed);
-  std::erase_if(frame.texts, [&](const TextColumn& column) {
-    const bool unread = !is_wanted(wanted, column.name);
-    if (unread) frame.unread.push_back(column.name);
-    return unread;
-  });
+  guess_species(frame);
+  leave_out_unwanted(wanted, frame);
   return {};
 }
 
