@@ -73,23 +73,6 @@ void TomlTable::read_file_name(std::string_view key, std::string& name) {
          quote(name) + " is not there, but has a place for a frame's number: --frames is missing");
 }
 
-bool TomlTable::has(std::string_view key) { return find(key) != nullptr; }
-
-bool TomlTable::has_array(std::string_view key) {
-  const TomlValue* value = find(key);
-  return value != nullptr && std::holds_alternative<TomlArray>(value->data);
-}
-
-bool TomlTable::has_text(std::string_view key) {
-  const TomlValue* value = find(key);
-  return value != nullptr && std::holds_alternative<std::string>(value->data);
-}
-
-bool TomlTable::has_table(std::string_view key) {
-  const TomlValue* value = find(key);
-  return value != nullptr && std::holds_alternative<TomlMembers>(value->data);
-}
-
 const TomlValue* TomlTable::find(std::string_view key) {
   if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   return find_member(*members_, key);
@@ -190,38 +173,34 @@ void TomlTable::read(std::string_view key, int& out) {
   if (const TomlValue* value = find(key)) convert(*value, key, out);
 }
 
-void TomlTable::read(std::string_view key, int& first, int& second) {
-  const TomlArray* array = find_array(key, 2, "integers");
+template <class Number>
+void TomlTable::read_array(std::string_view key, const char* of_what,
+                           std::initializer_list<Number*> out) {
+  const TomlArray* array = find_array(key, out.size(), of_what);
   if (array == nullptr) return;
-  convert((*array)[0], key, first);
-  convert((*array)[1], key, second);
+  auto value = array->begin();
+  for (Number* const one : out) convert(*value++, key, *one);
+}
+
+void TomlTable::read(std::string_view key, int& first, int& second) {
+  read_array(key, "integers", {&first, &second});
 }
 
 void TomlTable::read(std::string_view key, std::array<int, 3>& out) {
-  const TomlArray* array = find_array(key, 3, "integers");
-  if (array == nullptr) return;
-  for (std::size_t i = 0; i < out.size(); ++i) convert((*array)[i], key, out[i]);
+  read_array(key, "integers", {&out[0], &out[1], &out[2]});
 }
 
 void TomlTable::read(std::string_view key, std::array<double, 2>& out) {
-  const TomlArray* array = find_array(key, 2, "numbers");
-  if (array == nullptr) return;
-  convert((*array)[0], key, out[0]);
-  convert((*array)[1], key, out[1]);
+  read_array(key, "numbers", {&out[0], &out[1]});
 }
 
-template <class Number>
-void TomlTable::read_vector(std::string_view key, Vec3<Number>& out) {
-  const TomlArray* array = find_array(key, 3, "numbers");
-  if (array == nullptr) return;
-  convert((*array)[0], key, out.x);
-  convert((*array)[1], key, out.y);
-  convert((*array)[2], key, out.z);
+void TomlTable::read(std::string_view key, Vec3f& out) {
+  read_array(key, "numbers", {&out.x, &out.y, &out.z});
 }
 
-void TomlTable::read(std::string_view key, Vec3f& out) { read_vector(key, out); }
-
-void TomlTable::read(std::string_view key, Vec3d& out) { read_vector(key, out); }
+void TomlTable::read(std::string_view key, Vec3d& out) {
+  read_array(key, "numbers", {&out.x, &out.y, &out.z});
+}
 
 void TomlTable::read_point(std::string_view key, Vec3f& out) {
   if (origin() == Vec3d{}) return read(key, out);

@@ -31,12 +31,12 @@ class TomlTable {
   [[nodiscard]] std::vector<std::string> keys() const;
 
   /// True if the table has `key`, which becomes known.
-  bool has(std::string_view key);
+  bool has(std::string_view key) { return find(key) != nullptr; }
 
   /// True if `key` has an array, a text, or a table.
-  bool has_array(std::string_view key);
-  bool has_text(std::string_view key);
-  bool has_table(std::string_view key);
+  bool has_array(std::string_view key) { return holds<TomlArray>(key); }
+  bool has_text(std::string_view key) { return holds<std::string>(key); }
+  bool has_table(std::string_view key) { return holds<TomlMembers>(key); }
 
   /// One number, integer or not, rounded to float once; too large for a float is an error.
   void read(std::string_view key, float& out);
@@ -125,8 +125,13 @@ class TomlTable {
   [[nodiscard]] std::string path_of(std::string_view key) const;
   std::size_t index_of(std::string_view key, const std::string& name,
                        std::span<const std::string_view> names);
+  template <class Value>
+  bool holds(std::string_view key) {
+    const TomlValue* value = find(key);
+    return value != nullptr && std::holds_alternative<Value>(value->data);
+  }
   template <class Number>
-  void read_vector(std::string_view key, Vec3<Number>& out);
+  void read_array(std::string_view key, const char* of_what, std::initializer_list<Number*> out);
   void report_type(const TomlValue& value, std::string_view key, const std::string& expected);
   const TomlArray* find_array(std::string_view key, std::size_t count, const char* of_what);
   void convert(const TomlValue& value, std::string_view key, float& out);
