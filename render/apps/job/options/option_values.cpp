@@ -1,7 +1,9 @@
 #include "render/apps/job/options/option_values.h"
 
 #include <algorithm>
+#include <initializer_list>
 #include <limits>
+#include <string_view>
 
 #include "core/math/color_names.h"
 #include "core/scene/scene.h"
@@ -16,6 +18,23 @@ bool* find_aov(AovSelection& aovs, const std::string& name) {
     if (name == aov.name) return &(aovs.*aov.wanted);
   }
   return nullptr;
+}
+
+struct Unit {
+  std::string_view name;
+  double size;
+};
+
+/// A number with one of these units behind it: above 0, `most` at most.
+std::optional<double> parse_measure(const std::string& text, std::initializer_list<Unit> units,
+                                    double most) {
+  const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
+  const auto number = parse_number(text.substr(0, digits), 0.0, 1e9);
+  const auto* const unit = std::find_if(
+      units.begin(), units.end(), [&](const Unit& one) { return text.substr(digits) == one.name; });
+  if (!number || unit == units.end()) return std::nullopt;
+  const double measure = *number * unit->size;
+  return measure > 0 && measure <= most ? std::optional(measure) : std::nullopt;
 }
 
 }  // namespace
@@ -52,20 +71,7 @@ std::optional<Size> parse_size(const std::string& text) {
 }
 
 std::optional<double> parse_length(const std::string& text) {
-  struct Unit {
-    std::string_view name;
-    double mm;
-  };
-  const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
-  const auto number = parse_number(text.substr(0, digits), 0.0, 1e9);
-  if (!number) return std::nullopt;
-  for (const auto& [name, mm] :
-       {Unit{"mm", 1}, Unit{"cm", 10}, Unit{"in", 25.4}, Unit{"pt", 25.4 / 72}}) {
-    if (text.substr(digits) != name) continue;
-    const double length = *number * mm;
-    return length > 0 && length <= 1e5 ? std::optional(length) : std::nullopt;
-  }
-  return std::nullopt;
+  return parse_measure(text, {{"mm", 1}, {"cm", 10}, {"in", 25.4}, {"pt", 25.4 / 72}}, 1e5);
 }
 
 std::optional<OutlineWidth> parse_outline(const std::string& text) {
@@ -98,20 +104,7 @@ std::string list_aovs() {
 }
 
 std::optional<double> parse_duration(const std::string& text) {
-  struct Unit {
-    const char* name;
-    double seconds;
-  };
-  const std::size_t digits = std::min(text.find_first_not_of("0123456789."), text.size());
-  const auto number = parse_number(text.substr(0, digits), 0.0, 1e9);
-  if (!number) return std::nullopt;
-  for (const auto& [name, seconds] :
-       {Unit{"", 1}, Unit{"ms", 1e-3}, Unit{"s", 1}, Unit{"m", 60}, Unit{"h", 3600}}) {
-    if (text.substr(digits) != name) continue;
-    const double duration = *number * seconds;
-    return duration > 0 && duration <= 1e9 ? std::optional(duration) : std::nullopt;
-  }
-  return std::nullopt;
+  return parse_measure(text, {{"", 1}, {"ms", 1e-3}, {"s", 1}, {"m", 60}, {"h", 3600}}, 1e9);
 }
 
 std::optional<BackgroundChoice> parse_background(const std::string& text) {
