@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
 #include <mutex>
-#include <span>
 #include <utility>
 
 #include "core/scene/kinds.h"
@@ -242,21 +240,27 @@ Status read_piece(const InputFile& file, const RowLayout& layout, std::size_t ro
   return {};
 }
 
+/// Calls act(begin, end) for pieces of so many rows; the first error in their order.
+template <class Act>
+Status in_pieces(std::size_t rows, std::size_t rows_per_piece, const ParallelFor& parallel_for,
+                 const Act& act) {
+  std::vector<Status> pieces((rows + rows_per_piece - 1) / rows_per_piece);
+  parallel_for(pieces.size(), [&](std::size_t i) {
+    const std::size_t row = i * rows_per_piece;
+    pieces[i] = act(row, std::min(row + rows_per_piece, rows));
+  });
+  const auto wrong =
+      std::find_if(pieces.begin(), pieces.end(), [](const Status& piece) { return !piece; });
+  return wrong == pieces.end() ? Status() : *wrong;
+}
+
 /// The same for all rows, of which threads read a piece each.
 template <class Take>
 Status read_rows(const InputFile& file, const RowLayout& layout, const ParallelFor& parallel_for,
                  const Take& take) {
-  constexpr std::size_t rows_per_piece = std::size_t{1} << 16;
-  const auto rows = static_cast<std::size_t>(layout.rows);
-  std::vector<Status> pieces((rows + rows_per_piece - 1) / rows_per_piece);
-  parallel_for(pieces.size(), [&](std::size_t i) {
-    const std::size_t row = i * rows_per_piece;
-    pieces[i] = read_piece(file, layout, row, std::min(row + rows_per_piece, rows), take);
-  });
-  for (const Status& piece : pieces) {
-    if (!piece) return piece;
-  }
-  return {};
+  return in_pieces(
+      static_cast<std::size_t>(layout.rows), std::size_t{1} << 16, parallel_for,
+      [&](std::size_t row, std::size_t end) { return read_piece(file, layout, row, end, take); });
 }
 
 /// A file of primitives that is open.
@@ -341,6 +345,20 @@ Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres,
 Status append_capsules(const NpyCapsules& request, std::vector<Capsule>& capsules,
                        const ParallelFor& parallel_for) {
   return append_rows(request, capsules, parallel_for);
+}
+
+Status decode_spheres(const unsigned char* rows, std::size_t width, std::uint64_t first,
+                      const Vec3d& origin, std::span<Sphere> spheres,
+                      const ParallelFor& parallel_for) {
+  constexpr std::size_t piece = 16'384;
+  const RowLayout layout{.width = width};
+  NpySpheres request;
+  request.origin = origin;
+  const RowDecoder decoder(layout, request);
+  return in_pieces(spheres.size(), piece, parallel_for, [&](std::size_t begin, std::size_t end) {
+    return decoder.decode(rows + begin * layout.bytes(), first + begin,
+                          spheres.subspan(begin, end - begin));
+  });
 }
 
 SphereExtent extent_of(const NpySpheres& request, const ParallelFor& parallel_for) {

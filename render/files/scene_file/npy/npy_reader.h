@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,6 +36,12 @@ Status append_spheres(const NpySpheres& request, std::vector<Sphere>& spheres,
 /// The same for capsules.
 Status append_capsules(const NpyCapsules& request, std::vector<Capsule>& capsules,
                        const ParallelFor& parallel_for = serial_for);
+
+/// The spheres of rows of four numbers of `width` bytes each, the first of which is row `first` of
+/// its file, with centres counted from `origin`. An error as above.
+Status decode_spheres(const unsigned char* rows, std::size_t width, std::uint64_t first,
+                      const Vec3d& origin, std::span<Sphere> spheres,
+                      const ParallelFor& parallel_for);
 
 /// Where the file's spheres are, or the spheres around the ends of its capsules, before the origin
 /// is subtracted and they are rounded. Nothing of a file that is refused.

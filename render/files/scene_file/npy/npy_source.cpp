@@ -3,45 +3,13 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
-#include "render/files/file/float32.h"
 #include "render/files/file/npy_header.h"
 #include "render/files/file/npy_rows.h"
+#include "render/files/scene_file/npy/npy_reader.h"
 
 namespace boule {
-namespace {
-
-constexpr const char* sphere_columns[] = {"center x", "center y", "center z", "radius"};
-
-using Row = std::array<double, 4>;
-
-/// The numbers of a row, the centre counted from `origin`.
-Row numbers_of(const unsigned char* row, std::size_t width, const Vec3d& origin) {
-  const auto number = [&](std::size_t column) {
-    return npy_number_of(row + column * width, width);
-  };
-  return {number(0) - origin.x, number(1) - origin.y, number(2) - origin.z, number(3)};
-}
-
-/// The sphere of a row, each number rounded once; an invalid one if a number is too large.
-Sphere sphere_of(const Row& row) {
-  return {{float32_or_nan(row[0]), float32_or_nan(row[1]), float32_or_nan(row[2])},
-          float32_or_nan(row[3])};
-}
-
-/// What is wrong with a row.
-std::string problem_of(const Row& row) {
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    if (!to_float32(row[i]))
-      return std::string(sphere_columns[i]) + " is too large for a 32-bit float";
-  }
-  const auto problem = find_problem(sphere_of(row));
-  return problem ? problem->field + " " + problem->message : std::string();
-}
-
-}  // namespace
 
 Status NpySource::named(const File& file, Status status) {
   if (!status) status.error().file = file.is_pipe ? "standard input" : file.name;
@@ -121,7 +89,8 @@ Status NpySource::read(std::vector<Sphere>& part, std::size_t most) {
   if (auto done = next_rows(most, rows); !done) return done;
   if (rows.file == nullptr) return {};
   part.resize(rows.count);
-  return named(*rows.file, decode(*rows.file, rows.first, rows.count, part.data()));
+  return named(*rows.file, decode_spheres(rows_.data(), rows.file->width, rows.first, origin_, part,
+                                          parallel_for_));
 }
 
 Result<SphereExtent> NpySource::extent() {
@@ -132,8 +101,10 @@ Result<SphereExtent> NpySource::extent() {
     if (auto done = next_rows(at_once, rows); !done) return done.error();
     all.add(extent_of(rows.count, parallel_for_, [&](std::size_t i, SphereExtent& extent) {
       const File& file = *rows.file;
-      const auto [x, y, z, r] = numbers_of(rows_.data() + i * file.row_bytes(), file.width, {});
-      extent.add({x, y, z}, r);
+      const auto number = [&, row = rows_.data() + i * file.row_bytes()](std::size_t column) {
+        return npy_number_of(row + column * file.width, file.width);
+      };
+      extent.add({number(0), number(1), number(2)}, number(3));
     }));
   } while (rows.file != nullptr);
   next_ = 0;
@@ -171,23 +142,6 @@ Status NpySource::read_pipe_on(File& file, std::size_t begin) {
                           std::to_string(rows));
   }
   return spool_->append(rows_.data() + begin, rows_.size() - begin);
-}
-
-Status NpySource::decode(const File& file, std::uint64_t first, std::size_t count,
-                         Sphere* spheres) const {
-  constexpr std::size_t piece = 16'384;
-  std::vector<std::size_t> bad((count + piece - 1) / piece, count);  // the first one of each
-  parallel_for_(bad.size(), [&](std::size_t i) {
-    for (std::size_t k = std::min((i + 1) * piece, count); k-- > i * piece;) {
-      spheres[k] = sphere_of(numbers_of(rows_.data() + k * file.row_bytes(), file.width, origin_));
-      if (!is_valid(spheres[k])) bad[i] = k;
-    }
-  });
-  const std::size_t row = bad.empty() ? count : *std::min_element(bad.begin(), bad.end());
-  if (row == count) return {};
-  return Diagnostic::of(
-      "row " + std::to_string(first + row) + ": " +
-      problem_of(numbers_of(rows_.data() + row * file.row_bytes(), file.width, origin_)));
 }
 
 }  // namespace boule

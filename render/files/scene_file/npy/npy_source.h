@@ -61,7 +61,6 @@ class NpySource final : public SphereSource {
   Status read_rows(File& file, std::uint64_t first, std::size_t count);
   Status read_pipe(File& file, std::uint64_t first);
   Status read_pipe_on(File& file, std::size_t begin);
-  Status decode(const File& file, std::uint64_t first, std::size_t count, Sphere* spheres) const;
 
   const ParallelFor& parallel_for_;
   std::vector<File> files_;
