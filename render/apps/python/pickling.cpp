@@ -1,5 +1,3 @@
-#include "render/apps/python/pickling.h"
-
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <vector>
 
 #include "render/apps/python/pictures/picture.h"
+#include "render/apps/python/values/bindings.h"
 #include "render/apps/python/values/errors.h"
 #include "render/apps/python/values/presence.h"
 #include "render/apps/python/values/values.h"

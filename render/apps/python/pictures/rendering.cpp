@@ -1,5 +1,3 @@
-#include "render/apps/python/pictures/rendering.h"
-
 #include <pybind11/stl.h>
 
 #include <atomic>
@@ -16,6 +14,7 @@
 #include "render/apps/job/picture/legend.h"
 #include "render/apps/python/pictures/picture.h"
 #include "render/apps/python/scenes/scenes.h"
+#include "render/apps/python/values/bindings.h"
 #include "render/apps/python/values/call.h"
 #include "render/apps/python/values/job_arguments.h"
 #include "render/apps/python/values/presence.h"

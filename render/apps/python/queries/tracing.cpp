@@ -1,5 +1,3 @@
-#include "render/apps/python/queries/tracing.h"
-
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -19,6 +17,7 @@
 #include "render/apps/python/scenes/scenes.h"
 #include "render/apps/python/scenes/sphere_arrays.h"
 #include "render/apps/python/values/arrays.h"
+#include "render/apps/python/values/bindings.h"
 #include "render/apps/python/values/call.h"
 #include "render/apps/python/values/errors.h"
 #include "render/apps/python/values/job_arguments.h"

@@ -1,5 +1,3 @@
-#include "render/apps/python/scenes/camera_rays.h"
-
 #include <limits>
 #include <memory>
 #include <utility>
@@ -8,6 +6,7 @@
 #include "render/apps/job/options/render_choices.h"
 #include "render/apps/python/scenes/scenes.h"
 #include "render/apps/python/values/arrays.h"
+#include "render/apps/python/values/bindings.h"
 #include "render/apps/python/values/call.h"
 #include "render/apps/python/values/errors.h"
 #include "render/apps/python/values/field_values.h"

@@ -1,5 +1,3 @@
-#include "render/apps/python/scenes/capsule_arrays.h"
-
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "core/math/geometry.h"
 #include "render/apps/python/scenes/array_rows.h"
 #include "render/apps/python/values/array_colors.h"
+#include "render/apps/python/values/bindings.h"
 #include "render/apps/python/values/errors.h"
 #include "render/apps/python/values/presence.h"
 #include "render/files/scene_file/loaded/primitive_points.h"

@@ -1,5 +1,3 @@
-#include "render/apps/python/scenes/data.h"
-
 #include <pybind11/stl.h>
 
 #include <memory>
@@ -9,6 +7,7 @@
 
 #include "core/scene/scene.h"
 #include "render/apps/python/values/arrays.h"
+#include "render/apps/python/values/bindings.h"
 #include "render/apps/python/values/errors.h"
 #include "render/apps/python/values/presence.h"
 #include "render/apps/python/values/values.h"

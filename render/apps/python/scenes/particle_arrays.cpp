@@ -1,5 +1,3 @@
-#include "render/apps/python/scenes/particle_arrays.h"
-
 #include <pybind11/stl.h>
 
 #include <cmath>
@@ -14,6 +12,7 @@
 #include "core/scene/number_text.h"
 #include "render/apps/python/values/arguments.h"
 #include "render/apps/python/values/arrays.h"
+#include "render/apps/python/values/bindings.h"
 #include "render/apps/python/values/errors.h"
 #include "render/apps/python/values/presence.h"
 #include "render/apps/python/values/values.h"
