@@ -54,9 +54,8 @@ class Rendering {
   Status keep_facts(LoadedScene& loaded);
   Status complete_overlay(Renderer& renderer);
   ExitCode render(Renderer& renderer);
-  Result<Image> make_image(Renderer& renderer);
-  /// The same where its noise is asked for; also which AOVs tell of it, into `channels`.
-  Result<Image> make_measured_image(Renderer& renderer, std::vector<ImageChannel>& channels);
+  /// Also the AOVs that tell of its noise, into `channels`.
+  Result<Image> make_image(Renderer& renderer, std::vector<ImageChannel>& channels);
   ExitCode render_whole(Renderer& renderer);
   /// The same for a picture that is written while it is rendered.
   ExitCode render_bands(Renderer& renderer);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -6,7 +7,7 @@
 #include "render/apps/cli/process/messages.h"
 #include "render/apps/cli/render/rendering.h"
 #include "render/apps/cli/report/picture_stream.h"
-#include "render/frame/partial_picture.h"
+#include "render/apps/job/picture/rendered_picture.h"
 #include "render/frame/scheduler.h"
 #include "render/frame/stopwatch.h"
 #include "render/image/band_writer.h"
@@ -31,8 +32,7 @@ ExitCode Rendering::render_whole(Renderer& renderer) {
     channels = std::move(aovs).value();
   }
   live_.start_pass("pixels");
-  const bool is_measured = boule::is_measured(renderer.options());
-  const auto image = is_measured ? make_measured_image(renderer, channels) : make_image(renderer);
+  const auto image = make_image(renderer, channels);
   live_.end_pass();
   live_.end_time_limit();
   if (!image) return explain(image.error());
@@ -44,46 +44,15 @@ ExitCode Rendering::render_whole(Renderer& renderer) {
 }
 
 /// The finished picture; or, with --partial, the unfinished one where it was stopped.
-Result<Image> Rendering::make_image(Renderer& renderer) {
-  if (!command_.partial) return renderer.render();
-  // First: a picture that is stopped has its lines too.
-  const auto lines = renderer.render_outline();
-  if (!lines) return lines.error();
-  Film film(renderer.rect());
-  const Status status = renderer.render_live(film);
-  const Alpha alpha = alpha_of(renderer.options());
-  const auto with_lines = [&lines](Image image) {
-    lines.value().draw(image);
-    return image;
-  };
-  if (status) return with_lines(film.to_image(alpha));
-  const PartialSamples samples{
-      film.total_samples(),
-      renderer.rect().area() * static_cast<std::uint64_t>(renderer.options().spp)};
-  if (!StopGuard::flag() || samples.done == 0) return status.error();
-  partial_ = samples;
-  return with_lines(partial_picture(film, renderer.options().order, alpha));
-}
-
-/// With --partial each pixel has a sample before any gets all, so that there is something to see.
-Result<Image> Rendering::make_measured_image(Renderer& renderer,
-                                             std::vector<ImageChannel>& channels) {
-  const RenderOptions& options = renderer.options();
-  const auto lines = renderer.render_outline();
-  if (!lines) return lines.error();
-  MeasuredPicture measured(renderer.rect());
-  Film film(command_.partial ? renderer.rect() : PixelRect{});
-  Status status = renderer.render_measured(measured, command_.partial ? &film : nullptr);
-  if (!status && (!StopGuard::flag() || film.total_samples() == 0)) return status.error();
-  if (!status)
-    partial_ = PartialSamples{count_measured(measured), renderer.rect().area(), "pixels"};
-  noise_ = noise_reached(measured, options.spp);
-  for (ImageChannel& channel : measured_channels(options.aovs, measured))
-    channels.push_back(std::move(channel));
-  Image image = partial_ ? partial_picture(film, measured, options.order, alpha_of(options))
-                         : measured.image(alpha_of(options));
-  if (options.outline > 0) lines.value().draw(image);
-  return image;
+Result<Image> Rendering::make_image(Renderer& renderer, std::vector<ImageChannel>& channels) {
+  if (!command_.partial && !is_measured(renderer.options())) return renderer.render();
+  auto made = render_picture(renderer, command_.partial, [] { return StopGuard::flag().load(); });
+  if (!made) return made.error();
+  RenderedPicture& picture = made.value();
+  partial_ = picture.partial;
+  noise_ = picture.noise;
+  std::move(picture.channels.begin(), picture.channels.end(), std::back_inserter(channels));
+  return std::move(picture.image);
 }
 
 template <class Write>

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,13 +13,13 @@
 #include "render/apps/job/overlay/legend_room.h"
 #include "render/apps/job/overlay/overlay_labels.h"
 #include "render/apps/job/picture/legend.h"
+#include "render/apps/job/picture/rendered_picture.h"
 #include "render/apps/python/pictures/picture.h"
 #include "render/apps/python/scenes/scenes.h"
 #include "render/apps/python/values/bindings.h"
 #include "render/apps/python/values/call.h"
 #include "render/apps/python/values/job_arguments.h"
 #include "render/apps/python/values/presence.h"
-#include "render/frame/partial_picture.h"
 #include "render/frame/scheduler.h"
 #include "render/renderer/scene_hash.h"
 
@@ -74,8 +75,6 @@ class Run {
 
  private:
   Status render(Renderer& renderer, PictureParts& parts, const Call& call);
-  Status render_measured(Renderer& renderer, PictureParts& parts, const Outline& lines,
-                         const Call& call) const;
   void describe(const Renderer& renderer, PictureParts& parts) const;
 
   SceneRequest request_;
@@ -126,40 +125,13 @@ Status Run::render(Renderer& renderer, PictureParts& parts, const Call& call) {
     if (!aovs) return aovs.error();
     parts.channels = std::move(aovs).value();
   }
-  auto lines = renderer.render_outline();
-  if (!lines) return lines.error();
-  if (is_measured(renderer.options())) return render_measured(renderer, parts, lines.value(), call);
-  Film film(renderer.rect());
-  Status status = renderer.render_live(film);
-  const Alpha alpha = alpha_of(renderer.options());
-  if (!status) {
-    const std::uint64_t all =
-        renderer.rect().area() * static_cast<std::uint64_t>(renderer.options().spp);
-    if (!call.cancel || film.total_samples() == 0) return status;
-    parts.partial = PartialSamples{film.total_samples(), all};
-    parts.image = partial_picture(film, renderer.options().order, alpha);
-  } else {
-    parts.image = film.to_image(alpha);
-  }
-  if (renderer.options().outline > 0) lines.value().draw(parts.image);
-  return {};
-}
-
-Status Run::render_measured(Renderer& renderer, PictureParts& parts, const Outline& lines,
-                            const Call& call) const {
-  const RenderOptions& options = renderer.options();
-  MeasuredPicture measured(renderer.rect());
-  Film film(renderer.rect());
-  Status status = renderer.render_measured(measured, job_.partial ? &film : nullptr);
-  if (!status && (!call.cancel || film.total_samples() == 0)) return status;
-  if (!status)
-    parts.partial = PartialSamples{count_measured(measured), renderer.rect().area(), "pixels"};
-  parts.noise = noise_reached(measured, options.spp);
-  parts.image = status ? measured.image(alpha_of(options))
-                       : partial_picture(film, measured, options.order, alpha_of(options));
-  if (options.outline > 0) lines.draw(parts.image);
-  for (ImageChannel& channel : measured_channels(options.aovs, measured))
-    parts.channels.push_back(std::move(channel));
+  auto made = render_picture(renderer, job_.partial, [&] { return call.cancel.load(); });
+  if (!made) return made.error();
+  RenderedPicture& picture = made.value();
+  parts.image = std::move(picture.image);
+  parts.partial = picture.partial;
+  parts.noise = picture.noise;
+  std::move(picture.channels.begin(), picture.channels.end(), std::back_inserter(parts.channels));
   return {};
 }
 
