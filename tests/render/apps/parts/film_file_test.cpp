@@ -139,8 +139,8 @@ TEST_F(FilmFile, EveryChangedByteIsRefused) {
 
 TEST_F(FilmFile, OtherVersionsAreNamed) {
   std::string bytes = written();
-  bytes[8] = 4;
-  EXPECT_EQ(refusal(bytes), "is a film file of version 4, expected 3");
+  bytes[8] = 3;
+  EXPECT_EQ(refusal(bytes), "is a film file of version 3, expected 4");
 }
 
 TEST_F(FilmFile, ImpossibleSamplesAreRefused) {
