@@ -21,7 +21,7 @@ from pathlib import Path
 import boule
 import numpy as np
 
-from stick_pictures import ELEMENTS, run, text
+from stick_pictures import ELEMENTS, run, tachyon_camera, text
 
 UNIFORM = (1, 2, 4, 8, 16, 32, 64)
 ADAPTIVE = (64, 32, 16, 8, 4, 2)
@@ -215,28 +215,11 @@ def tachyon_texture(name, material, ambient):
 
 
 def write_tachyon(folder, bounces, size):
-    """Its world is left-handed: x is mirrored. It is turned by half a pixel, since its samples lie around the pixels'
-    corners. It has no colours of metals, and no ambient light by colour."""
+    """Tachyon has no colours of metals, and no ambient light by colour."""
     scene = tomllib.loads((folder / "scene.toml").read_text())
     camera, background, mirror = scene["camera"], scene["background"], np.array([-1, 1, 1])
-    eye, half = np.array(camera["eye"]), np.tan(np.radians(camera["fov"] / 2))
-    forward = np.array(camera["look_at"]) - eye
-    forward /= np.linalg.norm(forward)
-    right = np.cross(forward, camera.get("up", [0, 1, 0]))
-    right /= np.linalg.norm(right)
-    view = forward - (right + np.cross(right, forward)) * half / size
-    file = f"""BEGIN_SCENE
-RESOLUTION {size} {size}
-CAMERA
-ZOOM {0.5 / half:.9g}
-ASPECTRATIO 1
-ANTIALIASING 0
-RAYDEPTH {bounces + 2}
-CENTER {text(eye * mirror)}
-VIEWDIR {text(view * mirror)}
-UPDIR {text(camera.get("up", [0, 1, 0]) * mirror)}
-END_CAMERA
-"""
+    up = np.array(camera.get("up", [0, 1, 0]))
+    file = tachyon_camera(np.array(camera["eye"]), camera["look_at"], up, camera["fov"], size, bounces + 2)
     if background.get("type") == "gradient":
         file += (f"BACKGROUND_GRADIENT SKY_SPHERE UPDIR 0 1 0 TOPVAL 1 BOTTOMVAL -1 TOPCOLOR {text(background['top'])} "
                  f"BOTTOMCOLOR {text(background['bottom'])}\n")

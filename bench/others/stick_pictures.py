@@ -127,25 +127,33 @@ light_source {{ <{text(scene["light"], ",")}> color rgb 1 }}
     (folder / "scene.pov").write_text(file)
 
 
-def write_tachyon(scene, folder, size):
-    """Mirrored in x, since its world is left-handed, and turned by half a pixel: it samples the pixels' corners."""
+def tachyon_camera(eye, look_at, up, fov, size, depth):
+    """The head of a scene of so many pixels a side. Tachyon's world is left-handed: x is mirrored. The camera is turned by
+    half a pixel, since samples lie around the pixels' corners."""
     mirror = np.array([-1, 1, 1])
-    forward = -scene["eye"] / np.linalg.norm(scene["eye"])
-    right = np.cross(forward, [0, 0, 1])
+    half = np.tan(np.radians(fov / 2))
+    forward = (np.array(look_at) - eye).astype(float)
+    forward /= np.linalg.norm(forward)
+    right = np.cross(forward, up)
     right /= np.linalg.norm(right)
-    half = np.tan(np.radians(FOV / 2))
     view = forward - (right + np.cross(right, forward)) * half / size
-    file = f"""BEGIN_SCENE
+    return f"""BEGIN_SCENE
 RESOLUTION {size} {size}
 CAMERA
 ZOOM {0.5 / half:.9g}
 ASPECTRATIO 1
 ANTIALIASING 0
-RAYDEPTH 2
-CENTER {text(scene["eye"] * mirror)}
+RAYDEPTH {depth}
+CENTER {text(eye * mirror)}
 VIEWDIR {text(view * mirror)}
-UPDIR 0 0 1
+UPDIR {text(up * mirror)}
 END_CAMERA
+"""
+
+
+def write_tachyon(scene, folder, size):
+    mirror = np.array([-1, 1, 1])
+    file = tachyon_camera(scene["eye"], np.zeros(3), np.array([0, 0, 1]), FOV, size, 2) + f"""\
 BACKGROUND {text(BACKGROUND)}
 LIGHT CENTER {text(scene["light"] * mirror)} RAD 0.0001 COLOR 1 1 1
 """
