@@ -46,6 +46,14 @@ inline int differing_pixels(const Image& a, const Image& b) {
   return count;
 }
 
+/// A crop has the bits of the picture where it was cut out: from column x and row y on.
+inline void expect_crop_of(const Image& picture, const Image& crop, int x, int y) {
+  for (int v = 0; v < crop.height; ++v) {
+    for (int u = 0; u < crop.width; ++u)
+      ASSERT_TRUE(same_bits(crop.at(u, v), picture.at(u + x, v + y))) << u << ' ' << v;
+  }
+}
+
 /// The picture has the bits of the reference path, by scalar code and by the machine's widest.
 inline void expect_reference_picture(const Scene& scene) {
   RenderOptions options = options_of(scene);

@@ -128,10 +128,7 @@ TEST_P(GhostPictures, IgnoreThreadsTilesCropsAndIsa) {
   options.order = PixelOrder::progressive;
   options.crop = PixelRect{11, 7, 40, 33};
   const Image part = render(scene_, options);
-  for (int y = 0; y < part.height; ++y) {
-    for (int x = 0; x < part.width; ++x)
-      EXPECT_TRUE(same_bits(part.at(x, y), picture.at(x + 11, y + 7)));
-  }
+  expect_crop_of(picture, part, 11, 7);
 }
 
 TEST_P(GhostPictures, AreWholeByAdaptiveSamples) {

@@ -101,10 +101,7 @@ TEST_P(FogTest, IgnoresThreadsTilesCropsOrderAndIsa) {
   EXPECT_EQ(film.to_image(Alpha::coverage).alpha, picture.alpha);
   options.crop = PixelRect{11, 7, 40, 33};
   const Image part = render(scene_, options);
-  for (int y = 0; y < part.height; ++y) {
-    for (int x = 0; x < part.width; ++x)
-      EXPECT_TRUE(same_bits(part.at(x, y), picture.at(x + 11, y + 7)));
-  }
+  expect_crop_of(picture, part, 11, 7);
 }
 
 TEST_P(FogTest, LeavesChannelsUnchanged) {
